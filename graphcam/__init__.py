@@ -44,7 +44,11 @@ def __getattr__(name: str) -> object:
         if name.startswith("_") or name in __all__:
             raise
         from graphcam.errors import nearest_word_remedy
+        from graphcam.former_names import FORMER_NAMES
 
+        if name in FORMER_NAMES:
+            told = f"graphcam has no name {name!r} any more: write {FORMER_NAMES[name]!r}"
+            raise AttributeError(told, name=name) from None
         near = nearest_word_remedy(name, __all__)
         told = f"; {near}" if str(near).endswith("?") else ""
         raise AttributeError(f"graphcam has no name {name!r}{told}", name=name) from error

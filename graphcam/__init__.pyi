@@ -23,7 +23,14 @@ from .given.measured import (
     integrated_motion as integrated_motion,
     measured_motion as measured_motion,
 )
-from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
+from .given.motion import (
+    DegreesWarning as DegreesWarning,
+    Dwell as Dwell,
+    Motion as Motion,
+    Return as Return,
+    Rise as Rise,
+    cam_angle as cam_angle,
+)
 from .given.motion_law import Law as Law
 from .given.outline_motion import OutlineMotion as OutlineMotion, outline_motion as outline_motion
 from .given.point_outline import (
@@ -41,7 +48,6 @@ from .mechanism.conjugate_cam import ConjugateCam as ConjugateCam
 from .mechanism.contact import (
     Contact as Contact,
     SpringPreload as SpringPreload,
-    least_preload as least_preload,
     spring_preload as spring_preload,
 )
 from .mechanism.flat_faced import FaceWidth as FaceWidth, face_width as face_width
@@ -89,7 +95,9 @@ from .solving.solution import Solution as Solution
 from .solving.solve import solve as solve
 from .studio import studio as studio
 from .sweeps.designs import Designs as Designs
+from .sweeps.grid import grid as grid
 from .sweeps.sweep import sweep as sweep
+from .sweeps.swept import Swept as Swept
 from .tasks.arcs_task import ArcsTask as ArcsTask
 from .tasks.task import Task as Task
 from .tasks.task_file import (

@@ -14,6 +14,7 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphcam.errors import DesignError
+from graphcam.former_names import renamed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes
@@ -64,19 +65,24 @@ class Plottable:
 
     _drawn_in: ClassVar[str]
 
-    def plot(self, axes: Axes | Figure | None = None) -> Axes:
+    @renamed(axes="ax")
+    def plot(self, ax: Axes | Figure | None = None, *, label: str = "", color: str | None = None) -> Axes:
         """Draw it on the given axes, on new ones in the given figure, or in a new figure; returns the axes.
+
+        A second value of the kind may be drawn on the axes of the first, for comparison.
+
+        label : its name in the legend, or of a drawing the title;  color : any that matplotlib knows
 
         Raises
         ------
-        DesignError : the value has nothing to draw
+        DesignError : the value has nothing to draw, or an array of axes is given
 
         >>> import graphcam as gc
         >>> motion = gc.builtin_task().motion()
         >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
         ['lift s', 'v = ds/dφ', 'a = dv/dφ', 'j = da/dφ']
         """
-        return higher_function(f"plots.{self._drawn_in}")(self, axes)
+        return higher_function(f"plots.{self._drawn_in}")(self, ax, label, color)
 
     def _repr_svg_(self) -> str | None:
         try:

@@ -19,6 +19,11 @@ MIN_LETTERS_OF_SYNONYM = 7
 Synonyms = Mapping[str, tuple[str, ...]]
 _ENDINGS = re.compile(r"(?<=\w{4})(?:ый|ий|ой|ая|яя|ое|ее|ые|ие|ого|его|ому|ему|ым|им|ом|ем|ую|юю)\b")
 """Endings of Russian adjectives: a law is masculine, an acceleration neuter."""
+_GENERIC_WORDS = re.compile(
+    r"\b(?:law|motion|curve|profile|follower|закон|движения|движение|толкатель|Gesetz|quy luật)\b|规律|曲线",
+    re.IGNORECASE,
+)
+"""Words that may stand beside the name of a law or of a kind."""
 _WORD_PATTERN = re.compile(r"[^\W_]+")
 
 
@@ -62,6 +67,9 @@ def meant(word: str, known: Iterable[str]) -> str:
     ('ccw', 'cycloidal', '')
     """
     known = list(dict.fromkeys(known))
+    bare = _GENERIC_WORDS.sub("", word).strip()
+    if bare and bare != word and (name := meant(bare, known)):
+        return name
     if alike := [name for name in known if plain(name) == plain(word)]:
         return alike[0]
     if called := [name for name in names_of(word) if name in known]:

@@ -232,7 +232,7 @@ picture_of(figure, "The torque on the cam over the cam angle: with friction it i
 rows = []
 for mu in (0.0, 0.15, 0.3):
     forces = gc.CamForces(rubbing.cam, rubbing.spring.load, friction=mu)
-    most = forces.greatest_normal()
+    most = forces.max_normal()
     rows.append((mu, gc.jamming_margin(rubbing.cam, mu).value, most.value, degrees(float(rubbing.cam.pressure_angle(most.phi))), gc.mean_torque(forces) / 1000))
 table(("μ", "minimum τ", "maximum N, N", "there α, °", "mean M, N·m"), rows, digits=2)
 
@@ -276,8 +276,8 @@ normal_force.check(your_normal_force)
 cam = solution.cam
 forces = gc.CamForces(cam, gc.SpringLoad(mass=mass, speed_rpm=speed, stiffness=stiffness, preload=least.preload + 20))
 stress = gc.ContactStress(forces, gc.RollerContact(width=15))
-found = stress.greatest()
-table(("maximum pressure, MPa", "at φ, °", "minimum width for 600 MPa, mm"), [(found.value, degrees(found.phi), stress.least_width(600))], digits=1)
+found = stress.max_pressure()
+table(("maximum pressure, MPa", "at φ, °", "minimum width for 600 MPa, mm"), [(found.value, degrees(found.phi), stress.min_width(600))], digits=1)
 
 # %% [markdown]
 # ## Drawn and exact

@@ -110,7 +110,7 @@ assert width_errors[1] < 0.002
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 
 
-def fields(found, names=("greatest_shear", "von_mises")):
+def fields(found, names=("max_shear", "von_mises")):
     """Stresses about the contact as shares of the peak pressure, over places in half-widths: above the roller, below the cam."""
     from matplotlib.figure import Figure
 
@@ -122,7 +122,7 @@ def fields(found, names=("greatest_shear", "von_mises")):
             # What is meshed is one half; the other one is its image.
             across = np.concatenate([-body.x[near], body.x[near]]) / unit
             filled = axes.tricontourf(across, up * np.tile(body.depth[near], 2) / unit, np.tile(getattr(body, name)[near], 2) / peak,
-                                      levels=np.linspace(0, 0.32 if name == "greatest_shear" else 0.6, 9), cmap="viridis")
+                                      levels=np.linspace(0, 0.32 if name == "max_shear" else 0.6, 9), cmap="viridis")
         axes.axhline(0, color="white", linewidth=0.8)
         axes.set(xlim=(-2, 2), ylim=(-2, 2), aspect="equal", title=title, xlabel="half-widths")
         axes.title.set_fontsize(9)
@@ -148,7 +148,7 @@ solution = gc.solve(task)
 show_steps(solution.stress.drawn["contact_stress"], within=solution)
 
 # %%
-at, most = solution.stress.contact, solution.stress.greatest
+at, most = solution.stress.contact, solution.stress.max_pressure
 print(f"{most.value:.0f} MPa at {degrees(most.phi):.1f} degrees: {float(at.force):.0f} N on a profile of radius {float(at.profile_radius):.1f} mm")
 
 # %% [markdown]
@@ -157,7 +157,7 @@ print(f"{most.value:.0f} MPa at {degrees(most.phi):.1f} degrees: {float(at.force
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(most.value - gc.hertz_line_contact(float(at.force), 15, float(at.profile_radius), solution.cam.roller_radius).peak_pressure) < 1e-6
-assert degrees(abs(most.phi - solution.spring.greatest_normal.phi)) > 1
+assert degrees(abs(most.phi - solution.spring.max_normal.phi)) > 1
 
 # %% [markdown]
 # ## Try it yourself
@@ -199,7 +199,7 @@ def below(radius):
     body = found.bodies[0]
     axis = np.flatnonzero(body.x < 1.001 * body.x.min())
     axis = axis[np.argsort(body.depth[axis])]
-    for name, color, label in (("greatest_shear", "#b3201c", "maximum shear"), ("von_mises", "#0b57a4", "von Mises")):
+    for name, color, label in (("max_shear", "#b3201c", "maximum shear"), ("von_mises", "#0b57a4", "von Mises")):
         axes.plot(body.depth[axis], getattr(body, name)[axis], color=color, label=label)
     axes.set(xlim=(0, 0.4), ylim=(0, 260))
     axes.legend(fontsize=8)
@@ -216,18 +216,18 @@ explore(below, radius=Slider("profile radius, mm", (30.0, 60.0, inf, -60.0, -30.
 
 # %%
 body = contact.bodies[0]
-shear, mises = int(body.greatest_shear.argmax()), int(body.von_mises.argmax())
+shear, mises = int(body.max_shear.argmax()), int(body.von_mises.argmax())
 table(("", "by elements", "by formulas"), [
     ("peak pressure, MPa", contact.peak_pressure, p0),
     ("half-width, mm", contact.half_width, a),
-    ("maximum shear stress / p0", body.greatest_shear[shear] / p0, 0.3003),
+    ("maximum shear stress / p0", body.max_shear[shear] / p0, 0.3003),
     ("its depth / a", body.depth[shear] / a, 0.786),
     ("maximum von Mises stress / p0", body.von_mises[mises] / p0, 0.5578),
     ("its depth / a", body.depth[mises] / a, 0.704),
 ], digits=4)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-assert abs(body.greatest_shear[shear] / p0 - 0.3003) < 0.002
+assert abs(body.max_shear[shear] / p0 - 0.3003) < 0.002
 assert abs(body.depth[shear] / a - 0.786) < 0.05
 
 # %% [markdown]

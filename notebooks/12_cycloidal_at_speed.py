@@ -122,7 +122,7 @@ picture_of(figure, "Two charts over n from 0 to 10. During the rise the rectangu
 # %%
 ratios = (1, 2, 3, 3.5, 5.3, 10.3)
 laws = ("rectangular", "cosine", "modified-trapezoidal", "modified-sine", "3-4-5", "cycloidal", "4-5-6-7")
-table(("maximum acceleration", *(f"n = {n:g}" for n in ratios)), [(law, *gc.shock_spectrum(law, ratios).greatest.tolist()) for law in laws], digits=1)
+table(("maximum acceleration", *(f"n = {n:g}" for n in ratios)), [(law, *gc.shock_spectrum(law, ratios).maximum.tolist()) for law in laws], digits=1)
 
 # %%
 table(("in the dwell", *(f"n = {n:g}" for n in ratios)), [(law, *gc.shock_spectrum(law, ratios).residual.tolist()) for law in laws], digits=1)
@@ -134,14 +134,14 @@ assert gc.shock_spectrum("rectangular", [2, 4, 10]).residual.max() < 1e-12
 assert abs(gc.shock_spectrum("rectangular", [3, 5, 7]).residual - 16).max() < 1e-9
 assert abs(gc.shock_spectrum("rectangular", [4.4]).residual[0] - 5.5) < 0.05
 assert gc.shock_spectrum("rectangular", [4 / 1.1]).residual.round(1).tolist() == [4.7]  # question 1
-assert gc.shock_spectrum("cycloidal", [1.5, 3, 6, 12]).greatest.round(1).tolist() == [17.9, 9.4, 7.4, 6.8]  # question 3
+assert gc.shock_spectrum("cycloidal", [1.5, 3, 6, 12]).maximum.round(1).tolist() == [17.9, 9.4, 7.4, 6.8]  # question 3
 assert abs(gc.law("cycloidal").peak_acceleration / gc.law("rectangular").peak_acceleration - 1.57) < 0.001
 # How the arches fall from n = 3.5 on: not at all, as 1/n, as 1/n².
 for name, power in (("rectangular", 0), ("cosine", 0), ("cycloidal", 1), ("4-5-6-7", 2)):
     arches = [gc.shock_spectrum(name, np.linspace(low, low + 4, 801)).residual.max() for low in (16, 32)]
     assert abs(np.log2(arches[0] / arches[1]) - power) < 0.3, name
 assert abs(max(spectra["cycloidal"].primary) - 20.4) < 0.1
-greatest = np.array([spectra[name].greatest for name in styles])
+greatest = np.array([spectra[name].maximum for name in styles])
 assert set(np.argmin(greatest, axis=0)[n >= 3]) == {2}
 assert set(np.argmax(greatest, axis=0)[n < 2.2]) == {2}
 

@@ -341,7 +341,7 @@ def _(draw: Random) -> float:
     """Wider ranges refuse nothing that narrower ones keep, and lose nothing: the radius is no larger."""
     moved = motion(draw, 6, 12, ("cosine", "cycloidal", "3-4-5", "triangular"))
     load = gc.SpringLoad(0.2, draw.uniform(50, 200), 1.0, preload=draw.uniform(200, 1200))
-    given = {"offset": (-8, 6), "roller_radius": (5, 20), "face_width": (6, 33), "permitted_stress": 500.0}
+    given = {"offset": (-8, 6), "roller_radius": (5, 20), "width": (6, 33), "permitted_stress": 500.0}
     narrow = gc.size_cam(moved, load, prime_radius=(25, 80), **given, rise=math.radians(29))
     wide = gc.size_cam(moved, load, prime_radius=(draw.uniform(11, 25), 80), **given, rise=math.radians(29))
     return max(0.0, wide.radius / narrow.radius - 1)
@@ -367,7 +367,7 @@ def _(draw: Random) -> float:
     """Without friction a turn takes no work."""
     cam, load = translating(draw), gc.SpringLoad(0.5, 200, 2.0, preload=3000.0)
     forces = gc.CamForces(cam, load)
-    return abs(gc.mean_torque(forces)) / abs(forces.greatest_torque().value)
+    return abs(gc.mean_torque(forces)) / abs(forces.max_torque().value)
 
 
 @trial("hertz_line_contact", 1e-12)
@@ -379,7 +379,7 @@ def _(draw: Random) -> float:
     return abs(found.peak_pressure / math.sqrt(force * modulus * curvature / (math.pi * width)) - 1)
 
 
-@trial("ContactStress.greatest", 1e-9)
+@trial("ContactStress.max_pressure", 1e-9)
 def _(draw: Random) -> float:
     """Hertz's pressure of a steel roller that Newton's second law presses onto the profile, by brute force."""
     cam, load = translating(draw), gc.SpringLoad(0.5, draw.uniform(30, 200), 2.0, preload=3000.0)
@@ -392,7 +392,7 @@ def _(draw: Random) -> float:
         relative = 1 / roller + bend / (1 - roller * bend)
         return np.sqrt(force * 206_000 / (2 * (1 - 0.09)) * relative / (math.pi * width))
 
-    found = gc.ContactStress(gc.CamForces(cam, load), gc.RollerContact(width)).greatest()
+    found = gc.ContactStress(gc.CamForces(cam, load), gc.RollerContact(width)).max_pressure()
     return abs(found.value / highest(pressure, cam) - 1)
 
 
@@ -406,7 +406,7 @@ def _(draw: Random) -> float:
         cam,
         signed=False,
     )
-    return abs(gc.least_preload(cam, load).preload / needed - 1)
+    return abs(gc.spring_preload(cam, load).preload / needed - 1)
 
 
 @trial("MotionBands.widest", 1e-9)

@@ -15,6 +15,7 @@ from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.given.follower import Limits, Rotation
+from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.mechanism.cam import Cam
@@ -68,7 +69,9 @@ def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> 
     """Rise, dwell, return, and a dwell for the rest of the turn; the angles in degrees."""
     up, top, down = radians(rise), radians(dwell), radians(back)
     bottom = FULL_TURN - sum((up, top, down))
-    return Motion([Rise(lift, up, law), Dwell(top), Return(lift, down, law), Dwell(bottom)])
+    return Motion(
+        [Rise(lift, up, canonical_law(law)), Dwell(top), Return(lift, down, canonical_law(law)), Dwell(bottom)]
+    )
 
 
 def scene(follower: str, law: str) -> BenchFollower:

@@ -16,7 +16,7 @@ from graphcam.bench.rows import EMPTY_CELL, BenchRow, Line, Parts, Section
 from graphcam.comparison.double_integration import chord_errors
 from graphcam.comparison.quantities import Comparison, side_of
 from graphcam.constructions.chain import Chain
-from graphcam.given.laws import LAWS, Floats, law as law_of
+from graphcam.given.laws import LAWS, Floats, LawName, law as law_of
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.words import say
@@ -182,7 +182,7 @@ CONVERGENCE = Section(
 # --- bounds of the double integration ---------------------------------------------------------------------------------
 
 
-def rows_of_law(name: str, parts: int) -> Iterator[BenchRow]:
+def rows_of_law(name: LawName, parts: int) -> Iterator[BenchRow]:
     """The rows of one law and number of parts, by quantity; not where the drawing is exact.
 
     >>> for row in rows_of_law("3-4-5", 12):

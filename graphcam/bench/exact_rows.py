@@ -19,7 +19,7 @@ from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import INNER_POINT, turn
 from graphcam.comparison.integrals import accurate_cumsum
 from graphcam.given.follower import Oscillating, Translating
-from graphcam.given.laws import LAWS, Floats, law
+from graphcam.given.laws import LAWS, Floats, canonical_law, law
 from graphcam.given.motion import FULL_TURN, Motion, Return, Rise
 from graphcam.given.piecewise import CHUNK_SIZE
 from graphcam.mechanism.cam import Cam, largest_roller
@@ -66,7 +66,7 @@ def designs(follower: str, law: str, n: int) -> Designs:
         own = {"follower": "oscillating", "lift": lift / ARM, "arm": ARM, "distance": 1.2 * ARM + place / 2}
     up, down, dwell = (random.uniform(*limits, n) for limits in ((1, 2.5), (1, 2), (0, 1.2)))
     angles, radius = {"rise_angle": up, "return_angle": down, "dwell_angle": dwell}, random.uniform(40, 80, n)
-    return Designs(prime_radius=radius, rise_law=law, return_law=law, **angles, **own)
+    return Designs(prime_radius=radius, rise_law=(named := canonical_law(law)), return_law=named, **angles, **own)
 
 
 def exact_rows(effort: Effort) -> Iterator[BenchRow]:

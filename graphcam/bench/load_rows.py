@@ -72,7 +72,7 @@ def load_of(follower: str) -> SpringLoad | ArmLoad:
 def extreme_forces(cam: Cam, follower: str) -> tuple[float, float, float]:
     """The maximum and the minimum normal force [N], and the maximum torque [N mm]."""
     forces = CamForces(cam, load_of(follower), friction=FRICTION_COEFFICIENT)
-    return forces.greatest_normal().value, forces.least_normal().value, forces.greatest_torque().value
+    return forces.max_normal().value, forces.min_normal().value, forces.max_torque().value
 
 
 def sampled_forces(cam: Cam, follower: str, n: int) -> tuple[float, float, float]:

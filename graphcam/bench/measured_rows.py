@@ -11,7 +11,7 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from graphcam.bench.rows import BenchRow, Effort, Section
-from graphcam.given.laws import DWELL_TO_DWELL_LAWS, Floats
+from graphcam.given.laws import DWELL_TO_DWELL_LAWS, Floats, LawName
 from graphcam.given.measured import DEFAULT_TOLERANCE, NOISE_TOLERANCE, MeasuredMotion, measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, MovingPhase, Phase, Return, Rise
 from graphcam.mechanism.turn_extremes import max_acceleration
@@ -226,7 +226,7 @@ def random_motion(random: np.random.Generator) -> Motion:
 def _phase(random: np.random.Generator, kind: int, lift: float, angle: float) -> Phase:
     if not kind:
         return Dwell(angle)
-    law = str(random.choice(list(DWELL_TO_DWELL_LAWS)))
+    law: LawName = random.choice(DWELL_TO_DWELL_LAWS).item()
     ratio = float(random.uniform(*ACCELERATION_RATIOS)) if law == "rectangular" else 1.0
     return (Rise if kind > 0 else Return)(lift, angle, law, ratio)
 

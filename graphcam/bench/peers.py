@@ -16,7 +16,7 @@ from graphcam.bench.rivals import optional
 from graphcam.bench.rows import EMPTY_CELL, Line, Section
 from graphcam.bench.timing import Timer
 from graphcam.given.follower import Translating
-from graphcam.given.laws import law
+from graphcam.given.laws import LawName, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
@@ -54,7 +54,7 @@ def peer_cam() -> Cam:
     return Cam(_motion("cosine"), Translating(OFFSET, ROLLER), BASE + ROLLER)
 
 
-def _motion(back: str) -> Motion:
+def _motion(back: LawName) -> Motion:
     rise, dwell, fall, rest = ANGLES
     return Motion([Rise(LIFT, rise, "cycloidal"), Dwell(dwell), Return(LIFT, fall, back), Dwell(rest)])
 

@@ -12,7 +12,7 @@ import numpy as np
 from graphcam.bench.bench_followers import LIFT, PERMITTED_ANGLE, BenchFollower
 from graphcam.bench.rivals import optional
 from graphcam.given.boundary_parts import MotionPoint
-from graphcam.given.laws import DECLARED_LAWS, Floats, law as law_of
+from graphcam.given.laws import DECLARED_LAWS, Floats, LawName, law as law_of
 
 EPS = float(np.finfo(float).eps)
 REFERENCE_DIGITS = 50
@@ -90,7 +90,7 @@ def rounding(found: Floats, exact: Floats) -> float:
     return float((np.abs(found - exact).max(axis=-1) / np.abs(exact).max(axis=-1)).max()) / EPS
 
 
-def law_eps(law: str) -> float | None:
+def law_eps(law: LawName) -> float | None:
     """The rounding of a law and its derivatives [eps]."""
     if mp is None or law not in DECLARED_LAWS:
         return None

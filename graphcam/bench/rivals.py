@@ -161,7 +161,7 @@ def by_stations(designs: Designs, n: int) -> Floats:
     u, found = np.linspace(0, 1, n), np.empty((len(designs), 3))
     columns = [designs.column(name).tolist() for name in ("lift", "rise_angle", "return_angle", "prime_radius")]
     places = [designs.column(name).tolist() for name in ("offset", "arm", "distance")]
-    (up, up1, up2), (back, back1, back2) = (law(x.item())(u, 2) for x in (designs.rise_law, designs.return_law))
+    (up, up1, up2), (back, back1, back2) = (law(designs.column(name)[0])(u, 2) for name in ("rise_law", "return_law"))
     seen = _seen_by_arm if np.any(designs.arm) else _seen_by_stem
     for k, (lift, rise, fall, r0, *place) in enumerate(zip(*columns, *places, strict=True)):
         sharpest = 0.0

@@ -45,6 +45,8 @@ JSON_HELP = "Print only the solution, as JSON; write files only with --out."
 OWN_SHEETS_HELP = "Each construction on sheets of its own; A3 if the task has A1 or A2."
 BLANK_HELP = "A blank sheet to draw on, without answers: axes, divisions, and the data of the task."
 UPTO_HELP = "A half-done sheet: up to step K, or to the end of the construction NAME, without the later answers."
+MAX_PENCIL = 10.0
+"""The largest standard deviation of a pencil [mm]: of more nothing can be read off the drawing."""
 PENCIL_HELP = "Standard deviation, in mm, of random errors in lines, divider settings and at the protractor's edge."
 DXF_HELP = "plain: for any CAD program; cad: with true dimensions and attributes."
 # Brackets are markup here.
@@ -109,7 +111,7 @@ def solve(
     task: TaskFile = None,
     out: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
-    pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=PENCIL_HELP)] = None,
+    pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=PENCIL_HELP, min=0, max=MAX_PENCIL)] = None,
     divisions: Annotated[
         int | None, Option(metavar="N", help="Number of parts per phase or arc, instead of the task's.")
     ] = None,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import fields
 from inspect import unwrap
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
@@ -21,6 +22,7 @@ INPUT_ERROR_STATUS = 2
 USAGE_ERROR: type[Exception] = typer.BadParameter.__mro__[1]
 """The error of a wrong use, for which typer has no public name."""
 _DECIMAL_COMMA_PATTERN = re.compile(r"([-+]?\d+),(\d+)")
+_UNIT_PATTERN = re.compile(r"([-+]?\d+(?:\.\d+)?)\s*[^\W\d_]+")
 _QUOTED_PATTERN = re.compile(r"'(.*?)'|\((?!s\))(.*)\)")
 
 
@@ -66,6 +68,11 @@ def _error(error: Any, words: tuple[str, ...]) -> DesignError:
         known = {option[2:]: option for each in context.command.params for option in each.opts if option[:2] == "--"}
         near = meant(error.option_name.lstrip("-"), known)
         told = say("did you mean '{close}'?", close=known[near]) if near else hint
+        from graphcam.tasks.task import DrawingTable
+
+        name = error.option_name.lstrip("-").replace("-", "_")
+        if not near and name in (field.name for field in fields(DrawingTable)):
+            told = say("write it into the task file: {name} = ... under [drawing]", name=name)
         return DesignError(
             error.option_name, say("an unknown option"), say("an option of {command}", command=path), told
         )
@@ -93,6 +100,14 @@ def _wrong_value(error: Any, typed: str, hint: Words) -> DesignError:
     least = getattr(parameter, "min", None)
     if least is not None:
         limit = say("{number}, at least {least:g}", number=limit, least=least)
+    most = getattr(parameter, "max", None)
+    if most is not None:
+        limit = say("a number from {least:g} to {most:g}", least=least, most=most)
+        with suppress(ValueError):
+            return DesignError(name, float(typed), limit, hint)
+    unit = _UNIT_PATTERN.fullmatch(typed)
+    if unit:
+        return DesignError(name, typed, limit, say("write {word}", word=unit[1]))
     comma = _DECIMAL_COMMA_PATTERN.fullmatch(typed) if kind is float else None
     return DesignError(name, typed, limit, say("write {word}", word=f"{comma[1]}.{comma[2]}") if comma else hint)
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, installed
+from graphcam.former_names import renamed
 from graphcam.given.laws import Floats
 from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS
 from graphcam.mechanism.hertz import LineContact, hertz_line_contact
@@ -52,7 +53,7 @@ class ElementStresses:
     shear: Floats
 
     @property
-    def greatest_shear(self) -> Floats:
+    def max_shear(self) -> Floats:
         """The maximum shear stress in the plane of the figure, (n,) MPa."""
         return np.hypot((self.across - self.along) / 2, self.shear)
 
@@ -63,6 +64,7 @@ class ElementStresses:
         return np.sqrt((a * a + b * b + c * c) / 2 + 3 * self.shear**2)
 
 
+@renamed(greatest_shear="max_shear")
 @dataclass(frozen=True, eq=False)
 class ElementContact:
     """A contact by finite elements.
@@ -92,20 +94,23 @@ class ElementContact:
         return math.sqrt(-middle / slope)
 
 
+@renamed(young="young1", poisson="poisson1")
 def contact_by_elements(
     force: float,
     width: float,
     radius1: float,
     radius2: float,
-    young: float = STEEL_YOUNG_MODULUS,
-    poisson: float = STEEL_POISSON_RATIO,
+    young1: float = STEEL_YOUNG_MODULUS,
+    young2: float = STEEL_YOUNG_MODULUS,
+    poisson1: float = STEEL_POISSON_RATIO,
+    poisson2: float = STEEL_POISSON_RATIO,
     parts: int = 20,
 ) -> ElementContact:
-    """The contact of two cylinders of one material with parallel axes; it needs the extra ``fem``.
+    """The contact of two cylinders with parallel axes; it needs the extra ``fem``.
 
     force : N, more than 0;  width : of the contact along the axes [mm]
     radius1, radius2 : of the cam and of the roller [mm]; a concave one is negative, a flat one infinite
-    young : MPa;  poisson : from 0, less than 0.5
+    young1, young2 : MPa;  poisson1, poisson2 : from 0, less than 0.5
     parts : elements over the half-width of the contact; errors fall with their square, and the time grows with it
 
     Raises
@@ -121,11 +126,12 @@ def contact_by_elements(
     """
     if not force > 0:
         raise DesignError("force", force, say("a finite number greater than 0 N"))
-    if not poisson < 0.5:
-        raise DesignError("poisson", poisson, say("less than 0.5"), say("what keeps its volume needs another element"))
+    for name, poisson in (("poisson1", poisson1), ("poisson2", poisson2)):
+        if not poisson < 0.5:
+            raise DesignError(name, poisson, say("less than 0.5"), say("what keeps its volume needs another element"))
     if parts < MIN_ELEMENTS:
         raise DesignError("parts", parts, say("{least} elements over the half-width or more", least=MIN_ELEMENTS))
-    hertz = hertz_line_contact(force, width, radius1, radius2, young, young, poisson, poisson)
+    hertz = hertz_line_contact(force, width, radius1, radius2, young1, young2, poisson1, poisson2)
     reach = MESHED_SHARE * min(abs(radius1), abs(radius2))
     if not hertz.half_width < MAX_HALF_WIDTH * reach / MESHED_SHARE:
         expected = say("such that the half-width {half_width:.3g} mm is less than {most:g} of the radius")
@@ -133,7 +139,8 @@ def contact_by_elements(
         raise DesignError("force", force, expected, say("reduce the force, or widen the contact"))
     x = _graded(MESH_HALF_WIDTH * hertz.half_width, round(MESH_HALF_WIDTH * parts), reach)
     depth = _graded(MESH_DEPTH * hertz.half_width, round(MESH_DEPTH * parts), reach)
-    bodies = [_Body(radius, young, poisson, x, depth) for radius in (radius1, radius2)]
+    materials = (radius1, young1, poisson1), (radius2, young2, poisson2)
+    bodies = [_Body(*material, x, depth) for material in materials]
     near = x[: round(MESH_HALF_WIDTH * parts)]
     yielding = bodies[0].yielding(near.size) + bodies[1].yielding(near.size)
     loads = _loads(yielding, _gap(radius1, near) + _gap(radius2, near), force / width)

@@ -33,7 +33,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.laws import DECLARED_LAWS, Floats, law as law_of
+from graphcam.given.laws import DECLARED_LAWS, Floats, canonical_law, law as law_of
 from graphcam.given.motion import Motion, MovingPhase
 from graphcam.given.motion_law import Law
 from graphcam.given.stations import Stations
@@ -87,7 +87,7 @@ def _fifth_derivatives(law: Law) -> tuple[Floats, Floats] | None:
     declared = DECLARED_LAWS.get(law.name)
     if declared is None or declared.fifth_derivatives is None:
         return None
-    if law not in ((named := law_of(law.name, law.ratio)), named.reversed):
+    if law not in ((named := law_of(canonical_law(declared.name), law.ratio)), named.reversed):
         return None
     greatest, bends = declared.fifth_derivatives
     # The halves of a law are stretched to its parts; at their end, where f'''' is odd about it, it does not jump.

@@ -12,7 +12,9 @@ from typing import Any, ClassVar, Self, overload
 
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.meaning import Meaning
+from graphcam.errors import DesignError, choice_limit
 from graphcam.showing import MAX_WIDTH, Plottable, value_text
+from graphcam.words import say
 
 Draw = Callable[[Any], Construction]
 """Draws a construction from the chain that it belongs to."""
@@ -62,7 +64,7 @@ class Drawings(Plottable, Mapping[str, Construction]):
 
     def __getitem__(self, name: str) -> Construction:
         if name not in self.names:
-            raise KeyError(name)
+            raise KeyError(str(DesignError(say("the construction"), name, *choice_limit(f"{name}", self.names))))
         return self.drawn(name)
 
     def __iter__(self) -> Iterator[str]:

@@ -14,6 +14,7 @@ from typing_extensions import TypeVar
 from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 from graphcam.drafting.meaning import Meaning
+from graphcam.former_names import renamed
 from graphcam.showing import MAX_LINES, MAX_WIDTH, Plottable, higher_function, value_text
 
 # A construction says what it draws, so both come from here.
@@ -279,8 +280,14 @@ class Construction(Plottable, Generic[G]):
         )
 
     # A step is what one names first.
+    @renamed(axes="ax")
     def plot(  # pyright: ignore[reportIncompatibleMethodOverride]
-        self, step: int | None = None, axes: Axes | Figure | None = None
+        self,
+        step: int | None = None,
+        ax: Axes | Figure | None = None,
+        *,
+        label: str = "",
+        color: str | None = None,
     ) -> Axes:
         """The drawing, all or up to the step of that index, in colour: mm of paper from the origin of its first view.
 
@@ -288,7 +295,7 @@ class Construction(Plottable, Generic[G]):
         ------
         DesignError : there is no such step, or the construction draws nothing
         """
-        return higher_function("plots.construction_drawing.plot")(self, axes, step)
+        return higher_function("plots.construction_drawing.plot")(self, ax, label, color, step)
 
     def first(self, name: str) -> Any:
         """The points, or the lengths on paper of the reading, of that name in the first sample: what a step shows."""

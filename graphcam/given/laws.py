@@ -8,8 +8,11 @@ Two of them are for a rise and a fall without a dwell between: the acceleration 
 begins with the same.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from functools import lru_cache
+from typing import Literal, cast
 
 from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.given.declared_law import DeclaredLaw
@@ -22,7 +25,24 @@ from graphcam.given.straight_line_laws import RECTANGULAR, TRAPEZOIDAL, TRIANGUL
 from graphcam.typed_words import names_of, plain
 from graphcam.words import say
 
-__all__ = ["LAWS", "Floats", "Side", "law"]
+__all__ = ["LAWS", "Floats", "LawName", "Side", "law"]
+
+LawName = Literal[
+    "rectangular",
+    "triangular",
+    "cosine",
+    "cycloidal",
+    "trapezoidal",
+    "modified-trapezoidal",
+    "modified-sine",
+    "2-3",
+    "3-4-5",
+    "4-5-6-7",
+    "double-harmonic",
+    "eighth-degree",
+    "constant-velocity",
+]
+"""All names that a law is asked for by; what textbooks call them is read too."""
 
 MAX_PART_RATIO = 1e12
 """Greatest ratio of a law's parts: of more, the shorter is lost beside the longer."""
@@ -35,17 +55,17 @@ DECLARED_LAWS: Mapping[str, DeclaredLaw] = {
     )
 }
 """The laws by their names."""
-LAWS: tuple[str, ...] = (*DECLARED_LAWS,)
-DWELL_TO_DWELL_LAWS: tuple[str, ...] = tuple(name for name, law in DECLARED_LAWS.items() if not law.rise_fall)
+LAWS = cast(tuple[LawName, ...], (*DECLARED_LAWS,))
+DWELL_TO_DWELL_LAWS = tuple(name for name in LAWS if not DECLARED_LAWS[name].rise_fall)
 """The laws that look the same from both ends."""
-RISE_FALL_LAWS: tuple[str, ...] = tuple(name for name, law in DECLARED_LAWS.items() if law.rise_fall)
+RISE_FALL_LAWS = tuple(name for name in LAWS if DECLARED_LAWS[name].rise_fall)
 """The laws of a rise without a dwell behind it; a return by them runs backwards, from the same acceleration to rest."""
 KNOWN_LAWS = (*LAWS, CONSTANT_VELOCITY)
 """All names that a law is asked for by."""
 _NAMES_BY_PLAIN = {plain(name): name for name in KNOWN_LAWS}
 
 
-def canonical_law(name: str | Law) -> str | Law:
+def canonical_law(name: str | Law) -> LawName | Law:
     """The name in graphcam of a law that textbooks call so; another name, or a law of your own, as it is.
 
     >>> [canonical_law(name) for name in ("UARM", "Simple Harmonic", "равноускоренный", "3–4–5", "cicloidal")]
@@ -53,10 +73,10 @@ def canonical_law(name: str | Law) -> str | Law:
     """
     if not isinstance(name, str) or name in KNOWN_LAWS:
         return name
-    return _NAMES_BY_PLAIN.get(plain(name)) or next(iter(names_of(name, "laws")), name)
+    return cast(LawName, _NAMES_BY_PLAIN.get(plain(name)) or next(iter(names_of(name, "laws")), name))
 
 
-def law(name: str | Law, ratio: float = 1.0) -> Law:
+def law(name: LawName | Law, ratio: float = 1.0) -> Law:
     """The normalised motion law of that name; a law of your own is returned as it is.
 
     Parameters
@@ -101,7 +121,7 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     return name if own else _built_law(name, ratio)
 
 
-def law_of_return(name: str | Law, ratio: float = 1.0) -> Law:
+def law_of_return(name: LawName | Law, ratio: float = 1.0) -> Law:
     """The law of a return, of that name: one of :data:`RISE_FALL_LAWS` runs backwards there.
 
     >>> law_of_return("eighth-degree")(0.0)[2].item(), law_of_return("cosine") == law("cosine")

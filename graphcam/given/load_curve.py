@@ -1,5 +1,7 @@
 """A load over the turn: a table of cam angles and forces, with straight lines between its rows."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

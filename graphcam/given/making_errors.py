@@ -1,5 +1,7 @@
 """How far a cam and its follower may be off as they are made: the waviness of the profile, and tolerances of sizes."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -70,7 +72,7 @@ class Deviations:
             bend -= n * n * turned.real
         return deviation, slope, bend
 
-    def times(self, share: float) -> "Deviations":
+    def times(self, share: float) -> Deviations:
         """The deviations multiplied by a factor."""
         return Deviations(self.harmonics, share * self.waves, {name: share * off for name, off in self.sizes.items()})
 

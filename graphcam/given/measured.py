@@ -4,6 +4,8 @@ A spline is fitted to the table and cut where it rests and where it turns, so th
 and returns as any other, whose laws are the pieces of the spline.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
@@ -11,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_number
+from graphcam.former_names import renamed
 from graphcam.given.laws import Floats
 from graphcam.given.leg_detection import MIN_LEG_LIFT, Leg, find_legs
 from graphcam.given.monotone_spline import fit
@@ -71,6 +74,7 @@ class RowError(DesignError):
         self.row = row
 
 
+@renamed(greatest_residual="max_residual")
 @dataclass(frozen=True, eq=False, repr=False)
 class MeasuredMotion(Motion):
     """A motion through the rows of a table; made by :func:`measured_motion` and :func:`integrated_motion`.
@@ -103,7 +107,7 @@ class MeasuredMotion(Motion):
         return self(self.phi - self.zero)[0] - self.measured
 
     @property
-    def greatest_residual(self) -> float:
+    def max_residual(self) -> float:
         """The maximum |residual| [mm]; it is at most the tolerance."""
         return float(np.max(np.abs(self.residuals)))
 
@@ -160,9 +164,9 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     >>> motion = gc.measured_motion(phi, 10 - 10 * np.cos(phi))
     >>> [phase.kind for phase in motion.phases], round(motion.lift, 2)
     (['rise', 'return'], 20.0)
-    >>> motion.greatest_residual <= motion.tolerance
+    >>> motion.max_residual <= motion.tolerance
     True
-    >>> float(np.max(np.abs(motion(phi - motion.zero)[0] - motion.measured))) == motion.greatest_residual
+    >>> float(np.max(np.abs(motion(phi - motion.zero)[0] - motion.measured))) == motion.max_residual
     True
     """
     check_number("tolerance", tolerance, say("a finite number greater than 0"), above=0)

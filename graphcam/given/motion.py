@@ -1,9 +1,13 @@
 """The follower's motion over one revolution: phases one after another, and the values at any cam angle."""
 
+from __future__ import annotations
+
 import math
+import sys
+import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from typing import ClassVar, NamedTuple
 
@@ -11,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_kind, check_number
-from graphcam.given.laws import Floats, Side, canonical_law, law, law_of_return
+from graphcam.given.laws import Floats, LawName, Side, canonical_law, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Piece, Piecewise, chunks, dwell_formula, in_phase
 from graphcam.showing import Plottable, value_text
@@ -36,6 +40,20 @@ def _check_turn(angle: float, remedy: Words) -> None:
         raise DesignError("angle", say("{angle:.6g} rad", angle=angle), say("at most a full turn, 2 pi rad"), remedy)
 
 
+class DegreesWarning(UserWarning):
+    """A cam angle in radians that looks like degrees."""
+
+
+@cache
+def _warn_of_degrees() -> None:
+    """Tell once that cam angles are radians, with the user's line."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back and frame.f_globals["__name__"].startswith("graphcam."):
+        frame, level = frame.f_back, level + 1
+    told = "cam angles are radians here; a whole number beyond 2 pi looks like degrees: write gc.cam_angle(60) for 60°"
+    warnings.warn(told, DegreesWarning, stacklevel=level)
+
+
 def wrap(phi: ArrayLike) -> Floats:
     """The cam angles in [0, 2 pi); NaN and infinities give NaN.
 
@@ -45,6 +63,8 @@ def wrap(phi: ArrayLike) -> Floats:
     phi = np.asarray(phi, dtype=np.float64)
     if phi.size and phi.min() >= 0 and phi.max() < FULL_TURN:
         return phi  # the usual case, and the remainder is dear
+    if phi.size == 1 and float(phi.item()).is_integer():
+        _warn_of_degrees()
     with np.errstate(invalid="ignore"):
         turned = np.mod(phi, FULL_TURN)
     return np.where(turned < FULL_TURN, turned, turned - FULL_TURN)  # a tiny negative angle rounds up to a full turn
@@ -100,7 +120,7 @@ class MovingPhase:
 
     lift: float
     angle: float
-    law: str | Law = "3-4-5"
+    law: LawName | Law = "3-4-5"
     ratio: float = 1.0
 
     def __post_init__(self) -> None:
@@ -172,6 +192,23 @@ class Return(MovingPhase):
 
 
 Phase = Rise | Dwell | Return
+
+
+class MotionValues(NamedTuple):
+    """The displacement [mm; of an arm rad] and its derivatives by the cam angle, arrays of one shape."""
+
+    s: Floats
+    v: Floats
+    a: Floats
+    j: Floats
+
+
+class PhaseSpan(NamedTuple):
+    """The kind of a phase, and the cam angles [rad] from which and to which it lasts."""
+
+    kind: str
+    start: float
+    end: float
 
 
 class Blow(NamedTuple):
@@ -328,10 +365,10 @@ class Motion(Plottable):
         return np.array([float(phase.direction) for phase in self.phases])
 
     @property
-    def timing(self) -> list[tuple[str, float, float]]:
+    def timing(self) -> list[PhaseSpan]:
         """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
         ends = [*self.starts.tolist(), FULL_TURN]
-        return [(phase.kind, *span) for phase, span in zip(self.phases, pairwise(ends), strict=True)]
+        return [PhaseSpan(phase.kind, *span) for phase, span in zip(self.phases, pairwise(ends), strict=True)]
 
     @property
     def origin(self) -> float:
@@ -356,7 +393,7 @@ class Motion(Plottable):
         ]
         return np.unique(np.concatenate([self.starts, inner]))
 
-    def __call__(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
+    def __call__(self, phi: ArrayLike, side: Side = "right") -> MotionValues:
         """(s, v, a, j) at cam angles phi [rad], any real numbers, each shaped like phi.
 
         At a break the value of the named side is returned; elsewhere the sides agree.  NaN stays NaN.
@@ -370,14 +407,13 @@ class Motion(Plottable):
             if side == "left":
                 turned = np.where(turned == 0, FULL_TURN, turned)
             self._fill(turned, side, out[:, here])
-        s, v, a, j = out.reshape(4, *phi.shape)
-        return s, v, a, j
+        return MotionValues(*out.reshape(4, *phi.shape))
 
     def _fill(self, turned: Floats, side: Side, out: Floats) -> None:
         """Write the values at angles in [0, 2 pi], (n,), into ``out``, (4, n)."""
         self._piecewise.fill(turned, side, out)
 
-    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> MotionValues:
         """(s, v, a, j) at the fraction u in [0, 1] of a phase, so that both its ends belong to it; NaN outside.
 
         phase : index of the phase, one or as many as there are u
@@ -397,8 +433,7 @@ class Motion(Plottable):
             passed = edges <= u[:, None] if side == "right" else edges < u[:, None]
             piece = self.first_piece[index[here]] + np.count_nonzero(passed, axis=1)
             self._piecewise.gather(piece, np.where(self._from_end[piece], 1 - u, u), out[:, here])
-        s, v, a, j = out.reshape(4, *shape)
-        return s, v, a, j
+        return MotionValues(*out.reshape(4, *shape))
 
     def angle_at(self, phase: ArrayLike, u: ArrayLike) -> Floats:
         """The cam angle [rad] at the fraction u of a phase.

@@ -10,6 +10,8 @@ At 720 cam angles these displacements make the rows of a measured motion, which 
 what the tolerance permits: so the velocity is good, and the acceleration as good as that of a measured table.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

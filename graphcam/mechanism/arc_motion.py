@@ -13,6 +13,8 @@ which holds for the flattest arc as well.  With u'' = -u, differentiated by phi:
 where S = kappa r + B = sqrt(1 - B'^2) is the cosine of the pressure angle.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -24,9 +26,10 @@ from graphcam.errors import DesignError, check_number
 from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.impact import JUMP_ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, wrap
+from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, MotionValues, PhaseSpan, wrap
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes, Values
+from graphcam.mechanism.turn_extremes import Extreme
 from graphcam.showing import Plottable, value_text
 from graphcam.words import Caption, bare_caption, say
 
@@ -226,11 +229,11 @@ class ArcMotion(Plottable):
         return np.unique(self.edges[self.edges < FULL_TURN - CLOSURE_TOLERANCE])
 
     @property
-    def timing(self) -> list[tuple[str, float, float]]:
+    def timing(self) -> list[PhaseSpan]:
         """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
         ends = [0.0, *self.edges[[3, 4, 7]].tolist(), FULL_TURN]
         phases = zip(("rise", "dwell", "return", "dwell"), ends[:-1], ends[1:], strict=True)
-        return [(kind, start, end) for kind, start, end in phases if end - start > CLOSURE_TOLERANCE]
+        return [PhaseSpan(kind, start, end) for kind, start, end in phases if end - start > CLOSURE_TOLERANCE]
 
     def __repr__(self) -> str:
         phases = (f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.timing)
@@ -253,14 +256,14 @@ class ArcMotion(Plottable):
         """The whole lift [mm]."""
         return float(1 / self.arcs.curvature[3]) - self.prime_radius
 
-    def __call__(self, phi: ArrayLike, side: Side = "right") -> Values:
+    def __call__(self, phi: ArrayLike, side: Side = "right") -> MotionValues:
         """(s, v, a, j) at cam angles phi [rad], any real numbers, each shaped like phi; NaN stays NaN.
 
         Where one arc takes over from another, the value of the named side.
         """
         arc, psi, direction = self._place(phi, side)
         r, r1, r2, r3 = self._radius(arc, psi)
-        return r - self.prime_radius, direction * r1, r2, direction * r3
+        return MotionValues(r - self.prime_radius, direction * r1, r2, direction * r3)
 
     def at(self, arc: NDArray[np.intp], u: Floats) -> tuple[Floats, Values]:
         """The cam angle [rad] and (s, v, a, j) at the fraction u of an arc of the rise, both its ends seen from inside.
@@ -291,15 +294,15 @@ class ArcMotion(Plottable):
         columns = (column[jumped].tolist() for column in (phi, before, after))
         return [Jump(*row) for row in zip(*columns, strict=True)]
 
-    def max_velocity(self) -> tuple[float, float]:
+    def max_velocity(self) -> Extreme:
         """The maximum |v| [mm/rad] of the turn and where on the rise [rad]."""
         return self._greatest(lambda r: r[1])
 
-    def max_acceleration(self) -> tuple[float, float]:
+    def max_acceleration(self) -> Extreme:
         """The maximum |a| [mm/rad^2] of the turn, of both sides at a jump, and where on the rise [rad]."""
         return self._greatest(lambda r: r[2])
 
-    def max_pressure_angle(self) -> tuple[float, float]:
+    def max_pressure_angle(self) -> Extreme:
         """The maximum pressure angle [rad] and where on the rise [rad]; on the return it is the same, negative."""
         return self._greatest(lambda r: np.arctan2(r[1], r[0]))
 
@@ -337,11 +340,11 @@ class ArcMotion(Plottable):
         r2 = (b * r - (s1 + b1) * r1) / s
         return r, r1, r2, (3 * b * r1 + b1 * r - 3 * s1 * r2) / s
 
-    def _greatest(self, value: Callable[[Values], Floats]) -> tuple[float, float]:
+    def _greatest(self, value: Callable[[Values], Floats]) -> Extreme:
         """The value of maximum magnitude on the rise: at an end of an arc, or where it is stationary."""
         arc, start, end = np.arange(3), self.edges[:3], self.edges[1:4]
         on, inner = SmoothPieces(start, end).stationary(lambda arc, psi: value(self._radius(arc, psi)))
         arcs, psi = np.concatenate([arc, arc, on]), np.concatenate([start, end, inner])
         values = value(self._radius(arcs, psi))
         k = int(np.argmax(np.abs(values)))
-        return float(abs(values[k])), float(psi[k])
+        return Extreme(float(abs(values[k])), float(psi[k]))

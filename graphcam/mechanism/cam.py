@@ -4,12 +4,14 @@ It is the same for every follower; what differs stands in the follower's
 :class:`~graphcam.mechanism.kinematics.Kinematics`, as values of the frame that are seen here from the turning cam.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from textwrap import shorten
-from typing import Literal, overload
+from typing import Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +24,7 @@ from graphcam.given.piecewise import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.turn_extremes import Places, first_index, highest_places, places_from, turn_maximum
+from graphcam.mechanism.turn_extremes import Extreme, Places, first_index, highest_places, places_from, turn_maximum
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import MAX_WIDTH, Plottable, value_text
 from graphcam.words import say
@@ -44,6 +46,14 @@ class CamPoints:
     curvature: Floats
 
 
+class Curves(NamedTuple):
+    """The curves of a cam: pitch and profile (..., 2) [mm], and the curvature (...) of the pitch curve [1/mm]."""
+
+    pitch: Floats
+    profile: Floats
+    curvature: Floats
+
+
 @dataclass(frozen=True)
 class Extremes:
     """The extremes of a cam, each as (value, phi) to full precision; equal ones are told by the first.
@@ -55,10 +65,10 @@ class Extremes:
     min_convex_radius_moving : the same over the rises and returns alone; (inf, nan) if nothing there is convex
     """
 
-    pressure_angle_rise: tuple[float, float]
-    pressure_angle_return: tuple[float, float]
-    min_convex_radius: tuple[float, float]
-    min_convex_radius_moving: tuple[float, float]
+    pressure_angle_rise: Extreme
+    pressure_angle_return: Extreme
+    min_convex_radius: Extreme
+    min_convex_radius_moving: Extreme
 
 
 @dataclass(frozen=True, repr=False)
@@ -203,10 +213,10 @@ class Cam(Plottable):
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
         return self._in_chunks(self._write_curvature, phi, side, numbers=1)[0]
 
-    def curves(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats]:
+    def curves(self, phi: ArrayLike, side: Side = "right") -> Curves:
         """Pitch curve, profile (..., 2) [mm] and curvature of the pitch curve [1/mm] together, in half the time."""
         pitch, profile, curvature = self._in_chunks(self._write_curves, phi, side, points=2, numbers=1)
-        return pitch, profile, curvature
+        return Curves(pitch, profile, curvature)
 
     @overload
     def at(self, phi: ArrayLike, /, *, side: Side = "right") -> CamPoints: ...
@@ -274,15 +284,15 @@ class Cam(Plottable):
         """
         return trimmed_profile(self.envelope, n).points
 
-    def _steepest(self, places: Places) -> tuple[float, float]:
+    def _steepest(self, places: Places) -> Extreme:
         alpha = self._pressure_angle(places.values)
         k = first_index(np.abs(alpha), places.phi)
-        return float(alpha[k]), float(places.phi[k])
+        return Extreme(float(alpha[k]), float(places.phi[k]))
 
-    def _sharpest(self, places: Places) -> tuple[float, float]:
+    def _sharpest(self, places: Places) -> Extreme:
         radius = self.kinematics.convex_radius(places.values)
         k = first_index(-radius, places.phi) if np.isfinite(radius).any() else 0
-        return (float(radius[k]), float(places.phi[k])) if radius[k] < math.inf else (math.inf, math.nan)
+        return Extreme(float(radius[k]), float(places.phi[k]) if radius[k] < math.inf else math.nan)
 
     def _in_chunks(
         self, write: Callable[..., None], phi: ArrayLike, side: Side, points: int = 0, numbers: int = 0
@@ -340,6 +350,7 @@ def largest_roller(cam: Cam) -> float:
     ------
     DesignError : the follower has no roller
     """
+    check_kind("cam", cam, Cam)
     if not cam.kinematics.takes_roller:
         limit = say("one with a roller")
         raise DesignError("follower", cam.follower.kind, limit, say("enlarge the prime radius instead"))

@@ -10,6 +10,8 @@ and the profile lies inside of it by the second roller's radius, as that of the 
 Source: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 2, on positive drive by conjugate cams.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind, check_number
+from graphcam.former_names import renamed
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import wrap
 from graphcam.mechanism.cam import Cam
@@ -27,6 +30,7 @@ from graphcam.plane_vectors import cross, dot
 from graphcam.words import say
 
 
+@renamed(least_radius="min_convex_radius")
 @dataclass(frozen=True)
 class ConjugateCam:
     """The second cam of a conjugate pair, whose roller holds the follower on the first.
@@ -72,7 +76,7 @@ class ConjugateCam:
             limit = say("where the second cam pushes the follower back to the first, at {phi:.4g} degrees too")
             remedy = say("place it on the other side of the cam centre, farther away")
             raise DesignError("at", place, limit.with_values(phi=math.degrees(freed.phi)), remedy)
-        least = self.least_radius
+        least = self.min_convex_radius
         if self.roller_radius >= least.value:
             limit = say("less than {radius:.4g} mm, the radius of curvature of its centre's path at {phi:.4g} degrees")
             limit = limit.with_values(radius=least.value, phi=math.degrees(least.phi))
@@ -90,7 +94,7 @@ class ConjugateCam:
         return self._on_cam(centre - self.roller_radius * self._outward(along), phi)
 
     @cached_property
-    def least_radius(self) -> ValueAt:
+    def min_convex_radius(self) -> ValueAt:
         """The minimum convex radius of curvature of the path of the second roller's centre [mm], and its place."""
         sharpest = turn_maximum(self.cam.motion, self._curvature)
         return sharpest._replace(value=1 / sharpest.value if sharpest.value > 0 else math.inf)

@@ -6,23 +6,28 @@ would be negative the cam would have to pull, and the follower leaves it.
 Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind
+from graphcam.former_names import renamed
 from graphcam.given.impact import check_finite_acceleration
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.plausible_ranges import NUMBER_TYPES
 from graphcam.given.root_finding import roots
 from graphcam.given.spring_load import ArmLoad, FollowerLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.turn_extremes import (
     VALUE_ROUNDING,
+    Interval,
     Places,
     ValueAt,
     first_highest,
@@ -57,15 +62,34 @@ class ContactCurve:
     force: Floats
 
 
+@overload
+def spring_preload(motion: Cam, mass: SpringLoad | ArmLoad, /) -> SpringPreload: ...
+@overload
 def spring_preload(
     motion: Motion, mass: float, speed_rpm: float, stiffness: float, acceleration: float = 0.0
+) -> SpringPreload: ...
+def spring_preload(
+    motion: Motion | Cam,
+    mass: float | SpringLoad | ArmLoad,
+    speed_rpm: float = 0.0,
+    stiffness: float = 0.0,
+    acceleration: float = 0.0,
 ) -> SpringPreload:
-    """The minimum preload that keeps a translating follower on its cam over the whole turn: sup -(m a omega^2 + ...).
+    """The minimum preload that keeps a follower on its cam over the whole turn: sup -(m a omega^2 + ...).
+
+    ``spring_preload(cam, load)``: of any cam under a load, whose own preload does not count.  Friction at the cam does
+    not change it, as long as the follower does not jam.
+    ``spring_preload(motion, mass, speed_rpm, stiffness)``: of a translating follower.
 
     mass : kg;  speed_rpm : of the cam [rpm];  stiffness : of the spring [N/mm]
     acceleration : of the cam [rad/s^2], 0 at a constant speed
-    returns : preload [N], negative if none is needed, and the cam angle [rad]; it may be needed on one side of a jump
-        only (:meth:`Contact.least_force` names the side), and of equal places the first is named
+    returns : preload [N; N mm of a torsion spring about an arm's pivot], negative if none is needed, and the cam angle
+        [rad]; it may be needed on one side of a jump only (:meth:`Contact.min_force` names the side), and of equal
+        places the first is named
+
+    Raises
+    ------
+    DesignError : the load does not fit the follower
 
     >>> from math import degrees, radians
     >>> import graphcam as gc
@@ -75,35 +99,21 @@ def spring_preload(
     >>> preload, phi = gc.spring_preload(motion, mass=0.2, speed_rpm=550, stiffness=3)
     >>> round(preload, 4), degrees(phi)
     (69.2296, 45.0)
-    """
-    check_kind("motion", motion, Motion, remedy=say("of a cam take cam.motion"))
-    return _least_preload(motion, SpringLoad(mass, speed_rpm, stiffness, acceleration=acceleration))
-
-
-def least_preload(cam: Cam, load: SpringLoad | ArmLoad) -> SpringPreload:
-    """The minimum preload of a load's spring that keeps any follower on its cam over the whole turn.
-
-    load : its own preload does not count
-    returns : preload [N; N mm of a torsion spring about an arm's pivot], negative if none is needed, and the cam angle
-        [rad].  Friction at the cam does not change it, as long as the follower does not jam
-
-    Raises
-    ------
-    DesignError : the load does not fit the follower
-
-    >>> from math import degrees, radians
-    >>> import graphcam as gc
     >>> swing = radians(15)
     >>> motion = gc.Motion([gc.Rise(swing, radians(75)), gc.Dwell(radians(60)), gc.Return(swing, radians(75)),
     ...     gc.Dwell(radians(150))])
     >>> cam = gc.Cam(motion, gc.Oscillating(arm=120, distance=130), prime_radius=50)
     >>> spring = gc.ArmSpring(arm=60, anchor=(90, -40))
-    >>> preload, phi = gc.least_preload(cam, gc.ArmLoad(3000, 550, stiffness=3, at=spring))
+    >>> preload, phi = gc.spring_preload(cam, gc.ArmLoad(3000, 550, stiffness=3, at=spring))
     >>> round(preload, 3), round(degrees(phi), 2)
     (165.395, 59.04)
     """
-    check_kind("cam", cam, Cam)
-    return _least_preload(cam.motion, cam.kinematics.pressed_by(load))
+    if isinstance(motion, Cam):
+        check_kind("load", mass, (SpringLoad, ArmLoad), remedy=say("write spring_preload(cam, load)"))
+        return _least_preload(motion.motion, motion.kinematics.pressed_by(cast(SpringLoad | ArmLoad, mass)))
+    check_kind("motion", motion, (Motion, Cam))
+    check_kind("mass", mass, NUMBER_TYPES, say("a number of kg"), say("under a load write spring_preload(cam, load)"))
+    return _least_preload(motion, SpringLoad(cast(float, mass), speed_rpm, stiffness, acceleration=acceleration))
 
 
 def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
@@ -120,6 +130,7 @@ def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
     return SpringPreload(found.value, found.phi)
 
 
+@renamed(least_force="min_force", greatest_force="max_force")
 @dataclass(frozen=True)
 class Contact:
     """A follower that a load presses on its cam; of an arm the load beside it, and torques [N mm] in place of forces.
@@ -130,7 +141,7 @@ class Contact:
     >>> motion = gc.Motion([gc.Rise(30, angle, "cosine"), gc.Dwell(angle), gc.Return(30, angle, "cosine"),
     ...     gc.Dwell(5 * angle)])
     >>> contact = gc.Contact(motion, gc.SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=60))
-    >>> [round(x, 4) for x in contact.least_force()[:2]], contact.least_force().side
+    >>> [round(x, 4) for x in contact.min_force()[:2]], contact.min_force().side
     ([-9.2296, 0.7854], 'left')
     >>> [[round(degrees(phi), 2) for phi in interval] for interval in contact.lost()]
     [[39.2, 45.0], [90.0, 95.8]]
@@ -147,33 +158,33 @@ class Contact:
             remedy = say("take CamForces(cam, load).pressing")
             raise DesignError("load", say("an ArmLoad"), say("that load in its place beside the cam"), remedy)
 
-    def least_force(self) -> ValueAt:
+    def min_force(self) -> ValueAt:
         """The minimum xi over the turn [N], both sides of every jump included; of equal ones the first."""
         value, phi, side = self._extreme(-1)
         return ValueAt(-value, phi, side)
 
-    def greatest_force(self) -> ValueAt:
+    def max_force(self) -> ValueAt:
         """The maximum xi over the turn [N], both sides of every jump included; of equal ones the first."""
         return self._extreme(+1)
 
-    def lost(self) -> list[tuple[float, float]]:
+    def lost(self) -> list[Interval]:
         """The intervals of phi [rad] in which the cam would have to pull, in order.
 
         An end beyond 2 pi lies in the next turn.  In these intervals the cam's motion cannot be followed; a follower
         that has left the cam comes back to it later than the interval ends.
         """
-        found: list[tuple[float, float]] = []
+        found: list[Interval] = []
         for start, end in (self._interval(*ends) for ends in self._stretches()):
             if not start < end:
                 continue
             if found and start - found[-1][1] <= VALUE_ROUNDING * FULL_TURN:
-                found[-1] = found[-1][0], end
+                found[-1] = Interval(found[-1].start, end)
             else:
-                found.append((start, end))
+                found.append(Interval(start, end))
         whole_turns = len(found) > 1 and found[0][0] == 0 and FULL_TURN - found[-1][1] <= VALUE_ROUNDING * FULL_TURN
         if whole_turns:
             (_, first_end), (last_start, _) = found.pop(0), found.pop()
-            found.append((last_start, first_end + FULL_TURN))
+            found.append(Interval(last_start, first_end + FULL_TURN))
         return found
 
     def curve(self, parts: int = 60) -> ContactCurve:

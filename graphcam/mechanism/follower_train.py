@@ -26,13 +26,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_number
+from graphcam.former_names import renamed
 from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, wrap
 from graphcam.given.root_finding import roots
 from graphcam.mechanism.oscillator import Drive, DrivenOscillators, Oscillator, check_damping, steady
 from graphcam.mechanism.shock_response import AnyMotion, turn_edges
-from graphcam.mechanism.turn_extremes import VALUE_ROUNDING, ValueAt
+from graphcam.mechanism.turn_extremes import VALUE_ROUNDING, Interval, ValueAt
 from graphcam.showing import Plottable, value_text
 from graphcam.words import say
 
@@ -124,6 +125,7 @@ class TrainMotion:
     force: Floats
 
 
+@renamed(least_force="min_force", greatest_force="max_force")
 @dataclass(frozen=True, eq=False, repr=False)
 class VibratingFollower(Plottable):
     """The steady motion of an elastic follower on a cam that turns at one speed; call it with cam angles [rad].
@@ -146,7 +148,7 @@ class VibratingFollower(Plottable):
     >>> motion = gc.builtin_task().motion()
     >>> train = gc.FollowerTrain(mass=0.5, stiffness=2000, damping=0.05, spring=20, preload=200)
     >>> follower = gc.VibratingFollower(motion, train, speed_rpm=600)
-    >>> least = follower.least_force()
+    >>> least = follower.min_force()
     >>> round(least.value, 2), round(degrees(least.phi), 2), round(follower.least_preload(), 2)
     (-106.76, 189.46, 306.76)
     >>> [[round(degrees(phi), 2) for phi in interval] for interval in follower.lost()]
@@ -185,19 +187,19 @@ class VibratingFollower(Plottable):
         unknown = 0.0 * turned  # NaN stays NaN
         return TrainMotion(phi, *((each + unknown).reshape(phi.shape) for each in (x, x1, x2, y, force)))
 
-    def least_force(self) -> ValueAt:
+    def min_force(self) -> ValueAt:
         """The minimum N of the turn [N]; of equal ones the first."""
         return self._first_extreme(np.argmin)
 
-    def greatest_force(self) -> ValueAt:
+    def max_force(self) -> ValueAt:
         """The maximum N of the turn [N]; of equal ones the first."""
         return self._first_extreme(np.argmax)
 
     def least_preload(self) -> float:
         """The minimum preload [N] with which the follower keeps to the cam at this speed."""
-        return self.train.preload - self.least_force().value
+        return self.train.preload - self.min_force().value
 
-    def lost(self) -> list[tuple[float, float]]:
+    def lost(self) -> list[Interval]:
         """The intervals of phi [rad] in which the cam would have to pull, in order; empty where contact is kept.
 
         An end beyond 2 pi lies in the next turn.  Where the first one begins the follower leaves the cam; what it does
@@ -211,13 +213,13 @@ class VibratingFollower(Plottable):
         low, high = phi[:-1][crossing], phi[1:][crossing]
         ends = roots(lambda phi: self(phi).force, low, high).tolist()
         if not ends:
-            return [(0.0, FULL_TURN)] if negative[0] else []
+            return [Interval(0.0, FULL_TURN)] if negative[0] else []
         if negative[0]:
             ends = [*ends[1:], ends[0] + FULL_TURN]
-        return list(zip(ends[::2], ends[1::2], strict=True))
+        return [Interval(*ends) for ends in zip(ends[::2], ends[1::2], strict=True)]
 
     def __repr__(self) -> str:
-        train, least, lost = self.train, self.least_force(), self.lost()
+        train, least, lost = self.train, self.min_force(), self.lost()
         places = ", ".join(f"{math.degrees(start):.4g}°" for start, _ in lost[:4])
         rows = [
             f"train of {train.mass:g} kg and {train.stiffness:g} N/mm, damping ratio {train.damping:g}",

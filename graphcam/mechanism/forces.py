@@ -36,6 +36,8 @@ no work over the turn, and the mean torque is zero; so is that of the inertia at
 friction and damping d take, and a load that differs on the way up and on the way down.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -46,6 +48,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_kind
+from graphcam.former_names import renamed
 from graphcam.given.impact import check_finite_acceleration
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
@@ -69,7 +72,7 @@ from graphcam.mechanism.turn_extremes import (
     turn_maximum,
     zero_angles,
 )
-from graphcam.showing import parts_text
+from graphcam.showing import Plottable, parts_text
 from graphcam.words import say
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
@@ -124,8 +127,15 @@ class Forces:
     contact_friction: Floats
 
 
+@renamed(
+    greatest_normal="max_normal",
+    least_normal="min_normal",
+    greatest_torque="max_torque",
+    least_torque="min_torque",
+    least_efficiency="min_efficiency",
+)
 @dataclass(frozen=True)
-class CamForces:
+class CamForces(Plottable):
     """The forces between a cam and its follower under a load, with friction between them, and of a stem in a guide.
 
     Cam angles are in radians; for degrees write ``forces.at(gc.cam_angle(60))``.
@@ -149,10 +159,12 @@ class CamForces:
     (160.0, 165.459, 42.15)
     >>> forces.at(gc.cam_angle(60)).normal.round(3).item()  # at 60 degrees
     165.459
-    >>> most = forces.greatest_normal()
+    >>> most = forces.max_normal()
     >>> round(most.value, 3), round(degrees(most.phi), 3)
     (221.756, 120.0)
     """
+
+    _drawn_in = "force_curves.plot"
 
     cam: Cam
     load: SpringLoad | ArmLoad
@@ -166,16 +178,16 @@ class CamForces:
         >>> print(gc.CamForces(gc.solve(gc.builtin_task()).cam, gc.SpringLoad(0.5, 600, 2, preload=5)))
         CamForces
         ...
-          minimum normal force: ... N at ... degrees: contact is lost there; gc.least_preload(cam, load) keeps it
+          minimum normal force: ... N at ... degrees: contact is lost there; gc.spring_preload(cam, load) keeps it
         """
         try:
-            least = self.least_normal()
+            least = self.min_normal()
         except DesignError as error:
             return f"{parts_text(self)}\n  {error}"
         said = (
             f"{parts_text(self)}\n  minimum normal force: {least.value:.4g} N at {math.degrees(least.phi):.4g} degrees"
         )
-        lost = ": contact is lost there; gc.least_preload(cam, load) keeps it"
+        lost = ": contact is lost there; gc.spring_preload(cam, load) keeps it"
         return said + (lost if least.value < 0 else "")
 
     def __post_init__(self) -> None:
@@ -238,7 +250,7 @@ class CamForces:
             contact_friction=self.friction * normal,
         )
 
-    def greatest_normal(self) -> ValueAt:
+    def max_normal(self) -> ValueAt:
         """The maximum normal force over the turn [N], both sides of every jump included.
 
         Raises
@@ -247,7 +259,7 @@ class CamForces:
         """
         return self._extreme(self.normal)
 
-    def least_normal(self) -> ValueAt:
+    def min_normal(self) -> ValueAt:
         """The minimum normal force over the turn [N]; contact is lost where it is negative.
 
         Raises
@@ -256,7 +268,7 @@ class CamForces:
         """
         return self._extreme(self.normal, -1)
 
-    def greatest_torque(self) -> ValueAt:
+    def max_torque(self) -> ValueAt:
         """The maximum torque that must drive the cam [N mm].
 
         Raises
@@ -270,13 +282,13 @@ class CamForces:
         ...     gc.Dwell(radians(60))])
         >>> cam = gc.Cam(motion, gc.Oscillating(arm=120, distance=130, roller_radius=12), prime_radius=50)
         >>> forces = gc.CamForces(cam, gc.ArmLoad(2000, 300, 5000, preload=6000), friction=0.1)
-        >>> torque = forces.greatest_torque()
+        >>> torque = forces.max_torque()
         >>> round(torque.value, 1), round(degrees(torque.phi), 2)
         (1953.2, 60.48)
         """
         return self._extreme(self.torque)
 
-    def least_torque(self) -> ValueAt:
+    def min_torque(self) -> ValueAt:
         """The minimum torque on the cam [N mm], negative where the follower drives it.
 
         Raises
@@ -285,7 +297,7 @@ class CamForces:
         """
         return self._extreme(self.torque, -1)
 
-    def least_efficiency(self) -> ValueAt:
+    def min_efficiency(self) -> ValueAt:
         """The minimum efficiency of the guide over the rises; at 0 or below it jams."""
         worst = turn_maximum(self.cam.motion, self._slip_on_rises, self.corners)
         return worst._replace(value=1 - worst.value)
@@ -373,7 +385,7 @@ class CamForces:
         return f"at a cam angle of {math.degrees(found.phi):.4g} degrees, where the pressure angle is {alpha:.4g}"
 
     def _check_guide(self) -> None:
-        worst = self.least_efficiency()
+        worst = self.min_efficiency()
         if worst.value > 0:
             return
         if self.friction:

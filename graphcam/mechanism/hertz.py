@@ -6,6 +6,8 @@ half-width sqrt(4 F R/(pi w E')) under the peak pressure sqrt(F E'/(pi w R)).
 Source: K. L. Johnson, *Contact Mechanics* (1985), chapter 4.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import NamedTuple, overload
@@ -14,12 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind, check_number
+from graphcam.former_names import renamed
 from graphcam.given.laws import Floats, Side
-from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
+from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact, equivalent_modulus
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_from, turn_maximum
-from graphcam.showing import parts_text
+from graphcam.showing import Plottable, parts_text
 from graphcam.words import say
 
 
@@ -58,7 +61,7 @@ def hertz_line_contact(
     173.273583
     """
     check_number("force", force, say("a finite number of 0 N or more"), least=0)
-    stiffness = RollerContact(width, young1, young2, poisson1, poisson2).modulus
+    stiffness = equivalent_modulus(width, young1=young1, young2=young2, poisson1=poisson1, poisson2=poisson2)
     bend = _relative_curvature(radius1, radius2)
     load = force / width / math.pi
     return LineContact(math.sqrt(load * stiffness * bend), 2 * math.sqrt(load / stiffness / bend))
@@ -97,8 +100,9 @@ class Stresses:
     half_width: Floats
 
 
+@renamed(greatest="max_pressure", least_width="min_width")
 @dataclass(frozen=True)
-class ContactStress:
+class ContactStress(Plottable):
     """The stress between the follower and the working profile of a cam under forces.
 
     The profile's radius under a roller is rho - r, so 1/R = 1/(rho - r) + 1/r = 1/(r (1 - kappa r)) on convex, flat and
@@ -115,17 +119,19 @@ class ContactStress:
     ...     gc.Dwell(radians(60))])
     >>> cam = gc.Cam(motion, gc.Translating(offset=10, roller_radius=12), prime_radius=50)
     >>> forces = gc.CamForces(cam, gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
-    >>> stress, phi, _ = gc.ContactStress(forces, gc.RollerContact(width=15)).greatest()
+    >>> stress, phi, _ = gc.ContactStress(forces, gc.RollerContact(width=15)).max_pressure()
     >>> round(stress, 3), round(degrees(phi), 3)
     (228.67, 189.467)
     """
+
+    _drawn_in = "force_curves.plot_stress"
 
     forces: CamForces
     contact: RollerContact
 
     def __repr__(self) -> str:
         try:
-            most = self.greatest()
+            most = self.max_pressure()
         except DesignError as error:
             return f"{parts_text(self)}\n  {error}"
         return f"{parts_text(self)}\n  maximum pressure: {most.value:.4g} MPa at {math.degrees(most.phi):.4g} degrees"
@@ -163,7 +169,7 @@ class ContactStress:
         knots = self.forces.pressing.knots
         return over_turn(self.forces.cam.motion, lambda places: self.of(places).peak_pressure, knots, parts)
 
-    def greatest(self) -> ValueAt:
+    def max_pressure(self) -> ValueAt:
         """The maximum peak pressure over the turn [MPa], both sides of every jump included.
 
         Raises
@@ -174,7 +180,7 @@ class ContactStress:
         rho, _ = cam.extremes().min_convex_radius
         if not self._roller < rho:
             raise self._undercut(rho)
-        if self.forces.greatest_normal().value <= 0:
+        if self.forces.max_normal().value <= 0:
             found = say("nowhere positive")
             raise DesignError(say("contact force"), found, say("greater than 0 N somewhere"), say("preload the spring"))
         squared, phi, side = turn_maximum(cam.motion, self.squared_pressure, self.forces.pressing.knots)
@@ -190,10 +196,10 @@ class ContactStress:
         peak, phi = np.asarray(found.value), np.asarray(found.phi)
         return Stresses(phi, force, self._profile_radius(values), peak, half_width)
 
-    def least_width(self, permitted: float) -> float:
+    def min_width(self, permitted: float) -> float:
         """The width [mm] at which the maximum peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
         check_number(say("permitted stress"), permitted, say("a finite number greater than 0 MPa"), above=0)
-        return self.contact.width * (self.greatest().value / permitted) ** 2
+        return self.contact.width * (self.max_pressure().value / permitted) ** 2
 
     def squared_pressure(self, places: Places) -> Floats:
         """The square of the peak pressure [MPa^2] at places inside phases; negative where nothing presses."""

@@ -5,6 +5,8 @@ Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_rad
 :mod:`~graphcam.mechanism.oscillating_flat`; what a roller adds in :mod:`~graphcam.mechanism.least_radius_curvature`.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 from typing import overload

@@ -22,6 +22,8 @@ cam centre, |P| = c, the point R lies beyond the line of a place by
 where w is the fraction of a leg from its lower end, and a dash is the derivative by it.
 """
 
+from __future__ import annotations
+
 import cmath
 import math
 from bisect import bisect_right

@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import TOLERANCED_SIZES, MakingErrors, deviations_within, wave_name
 from graphcam.mechanism.cam import Cam
@@ -236,6 +236,8 @@ def motion_bands(
     [9.8, 62.0, 1825.7]
     """
     deviations_within(coverage)  # says at once what is wrong
+    check_kind("cam", cam, Cam)
+    check_kind("errors", errors, MakingErrors)
     check_errors(cam, errors)
     places = band_places(cam) if phi is None else np.atleast_1d(np.asarray(phi, dtype=np.float64))
     errors.sample(2, seed)

@@ -30,8 +30,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
+from graphcam.former_names import renamed
 from graphcam.given.impact import NO_FORCE, check_finite_acceleration
-from graphcam.given.laws import Floats, law as law_of
+from graphcam.given.laws import Floats, LawName, law as law_of
 from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
 from graphcam.given.motion_law import Law
 from graphcam.given.root_finding import roots
@@ -80,7 +81,7 @@ class Event:
         return float(self.drive.edges[-1])
 
 
-def event_of(law: str | Law | AnyMotion) -> Event:
+def event_of(law: LawName | Law | AnyMotion) -> Event:
     """The rise by a law; of a motion its first rise that follows a dwell, with what comes until the next dwell.
 
     Raises
@@ -210,7 +211,7 @@ class FollowerResponse(Plottable):
         return value_text(first, sizes, "response(u) gives x, x' and x'' at u in rise times; .plot() draws them")
 
 
-def follower_response(law: str | Law | AnyMotion, n: float, damping: float = 0.0) -> FollowerResponse:
+def follower_response(law: LawName | Law | AnyMotion, n: float, damping: float = 0.0) -> FollowerResponse:
     """The response of an elastic follower to a rise, and its vibration in the dwell after it.
 
     The follower is a mass on the end of a train with stiffness and damping (:class:`FollowerTrain`), at rest before.
@@ -253,6 +254,7 @@ def _check_ratios(n: Floats) -> None:
 # --- over the ratio of times -----------------------------------------------------------------------------------------
 
 
+@renamed(greatest="maximum")
 @dataclass(frozen=True, eq=False, repr=False)
 class ShockSpectrum(Plottable):
     """The maximum accelerations of elastic followers under one law, over n; made by :func:`shock_spectrum`.
@@ -275,14 +277,14 @@ class ShockSpectrum(Plottable):
     peak: float
 
     @property
-    def greatest(self) -> Floats:
+    def maximum(self) -> Floats:
         """(k,) the maximum |x''| at any time (maximax) [lifts/rise time^2]."""
         return np.maximum(self.primary, self.residual)
 
     @property
     def factor(self) -> Floats:
         """(k,) the dynamic factor: the maximum |x''| over the cam's own."""
-        return self.greatest / self.peak
+        return self.maximum / self.peak
 
     def __repr__(self) -> str:
         top = int(np.argmax(self.factor))
@@ -294,7 +296,7 @@ class ShockSpectrum(Plottable):
         return value_text(f"ShockSpectrum, {self.law}", sizes, last)
 
 
-def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, damping: float = 0.0) -> ShockSpectrum:
+def shock_spectrum(law: LawName | Law | AnyMotion, n: ArrayLike | None = None, damping: float = 0.0) -> ShockSpectrum:
     """The shock spectrum of a law: maximum accelerations during the rise and after it over n = T_rise/T_natural.
 
     Parameters

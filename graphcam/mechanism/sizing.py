@@ -18,12 +18,13 @@ from typing import Literal, NoReturn, cast
 import numpy as np
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.follower import Rotation
+from graphcam.former_names import renamed
+from graphcam.given.follower import Rotation, Translating
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.plausible_ranges import NUMBER_TYPES
 from graphcam.given.roller_contact import RollerContact
-from graphcam.given.roller_rule import roller_rule as terms_of
+from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule as terms_of
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.sizing_limits import (
@@ -113,12 +114,13 @@ def _limit_values(problem: SizingProblem, near: Sizes, name: str) -> tuple[Capti
     return say("{stress:.5g} MPa", stress=stress), say("at most {stress:.5g} MPa", stress=limits.stress)
 
 
+@renamed(face_width="width", least_width="min_width")
 @dataclass(frozen=True, repr=False)
 class SizedCam:
     """The best cam of a sizing problem, with its widths, its extremes and the limits that bind.
 
     cam : with its prime radius and roller;  offset : of its follower [mm]
-    face_width : of its face [mm];  least_width : the minimum that the stress permits, whatever its range [mm]
+    width : of its face [mm];  min_width : the minimum that the stress permits, whatever its range [mm]
     max_pressure_angle : on the rises and, if it is limited, on the returns, in magnitude [rad]
     min_convex_radius : of the pitch curve [mm];  stress : maximum peak pressure with this face width [MPa]
     binding : what keeps the radius, or with the objective "stress" the stress, from being smaller: ends of ranges, and
@@ -129,8 +131,8 @@ class SizedCam:
 
     cam: Cam
     offset: float
-    face_width: float
-    least_width: float
+    width: float
+    min_width: float
     max_pressure_angle: float
     min_convex_radius: float
     stress: float
@@ -140,14 +142,14 @@ class SizedCam:
 
     def __repr__(self) -> str:
         sizes = self.sizes
-        widths = f"roller radius {sizes.roller:.6g} mm, face width {self.face_width:.6g} mm"
+        widths = f"roller radius {sizes.roller:.6g} mm, face width {self.width:.6g} mm"
         angle, stress = math.degrees(self.max_pressure_angle), f"contact stress up to {self.stress:.4g} MPa"
         said = [
             f"prime radius {sizes.radius:.6g} mm, offset {self.offset:.6g} mm, {widths}",
             f"pressure angle up to {angle:.4g}°, radius of curvature from {self.min_convex_radius:.4g} mm, {stress}",
             f"bound by: {', '.join(self.binding) or 'nothing'}",
         ]
-        last = ".cam, .radius, .stress, .least_width, .binding, .active"
+        last = ".cam, .radius, .stress, .min_width, .binding, .active"
         return value_text("SizedCam", said, last)
 
     @property
@@ -158,9 +160,10 @@ class SizedCam:
     @property
     def sizes(self) -> Sizes:
         """The sizes of the cam [mm]."""
-        return Sizes(self.cam.prime_radius, self.offset, self.cam.roller_radius, self.face_width)
+        return Sizes(self.cam.prime_radius, self.offset, self.cam.roller_radius, self.width)
 
 
+@renamed(face_width="width")
 def size_cam(
     motion: Motion,
     load: SpringLoad,
@@ -169,12 +172,12 @@ def size_cam(
     base_radius: Range | float | None = None,
     offset: Range | float,
     roller_radius: Range | float,
-    face_width: Range | float,
+    width: Range | float,
     permitted_stress: float,
     objective: Objective = "size",
-    rise: float = math.radians(25),
+    rise: float | None = None,
     return_: float | None = None,
-    roller_rule: str = "0.8 rho",
+    roller_rule: str = DEFAULT_RULE,
     rotation: Rotation = "ccw",
     contact: RollerContact | None = None,
     friction: float = 0.0,
@@ -182,18 +185,15 @@ def size_cam(
     """The best cam for a translating roller follower: the smallest, or that of the minimum stress.
 
     load : that presses the follower on the cam over the whole turn; SpringLoad(0, 0, 0, preload=F) is a constant force
-    prime_radius, base_radius, offset, roller_radius, face_width : ranges [mm], machine sign; one number fixes a size.
+    prime_radius, base_radius, offset, roller_radius, width : ranges [mm], machine sign; one number fixes a size.
         Of the first two one is given, and made as small as possible; the base radius is the minimum one of the profile,
         less than the prime radius by the roller
     permitted_stress : peak pressure of the line contact [MPa]
     objective : "size", the minimum radius and then the narrowest face, or "stress", with the widest face
-    rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; return_ = None is force closure
-    roller_rule : the largest roller that is permitted, by the minimum convex radius of curvature or the prime radius
-
-        The defaults, rise 25 degrees and the rule "0.8 rho", are those of the publication from which the problem comes
-        (see the module).  :func:`graphcam.minimum_radius`, sweeps and task files, with :func:`graphcam.size_task`, take
-        30 degrees and "min(0.7 rho, 0.4 r0)": give both arguments to compare the results
-
+    rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; rise = None is 30 degrees, as of
+        :func:`graphcam.minimum_radius`, return_ = None is force closure
+    roller_rule : the largest roller that is permitted, by the minimum convex radius of curvature or the prime radius.
+        The publication from which the problem comes has 25 degrees and "0.8 rho"
     contact : moduli and Poisson's ratios of cam and roller; its width does not matter.  None is steel on steel
     friction : mu, between cam and follower
 
@@ -207,15 +207,15 @@ def size_cam(
     >>> motion = gc.Motion([gc.Rise(12, radians(60)), gc.Dwell(radians(60)), gc.Return(12, radians(60)),
     ...     gc.Dwell(radians(180))])
     >>> sized_cam = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=0,
-    ...                  roller_radius=(10, 15), face_width=(10, 20), permitted_stress=1500)
-    >>> sized_cam.cam.prime_radius, round(sized_cam.cam.roller_radius, 6), round(sized_cam.face_width, 3)
+    ...                  roller_radius=(10, 15), width=(10, 20), permitted_stress=1500)
+    >>> sized_cam.cam.prime_radius, round(sized_cam.cam.roller_radius, 6), round(sized_cam.width, 3)
     (60.0, 15.0, 10.694)
     >>> sized_cam
     SizedCam
       prime radius 60 mm, offset 0 mm, roller radius 15 mm, face width 10.6935 mm
       pressure angle up to 18.09°, radius of curvature from 38.01 mm, contact stress up to 1500 MPa
       bound by: minimum prime radius, maximum roller radius
-    .cam, .radius, .stress, .least_width, .binding, .active
+    .cam, .radius, .stress, .min_width, .binding, .active
     >>> sized_cam.binding
     ('minimum prime radius', 'maximum roller radius')
     """
@@ -223,8 +223,14 @@ def size_cam(
         found = say("neither given") if prime_radius is None else say("both given")
         raise DesignError(say("prime_radius and base_radius"), found, say("one of them, as a range in mm"))
     measure: Measure = "base radius" if prime_radius is None else "prime radius"
+    usual = math.radians(Translating.usual_limit_deg)
     limits = SizingLimits(
-        permitted_stress, rise, return_, terms_of(roller_rule), contact or RollerContact(1.0), friction
+        permitted_stress,
+        usual if rise is None else rise,
+        return_,
+        terms_of(roller_rule),
+        contact or RollerContact(1.0),
+        friction,
     )
     check_kind("motion", motion, Motion)
     check_kind("load", load, SpringLoad)
@@ -237,7 +243,7 @@ def size_cam(
         _range(measure, radius),
         _range("offset", offset),
         _range("roller radius", roller_radius),
-        _range("face width", face_width),
+        _range("face width", width),
         rotation,
         measure,
     )
@@ -263,9 +269,9 @@ def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
     if found is None:
         refuse(problem)
     if objective == "stress":
-        return sized_cam(problem, replace(found, width=problem.face_width[1]))
+        return sized_cam(problem, replace(found, width=problem.width[1]))
     sizes = _narrowest(problem, found)
-    low, high = problem.face_width
+    low, high = problem.width
     return sized_cam(problem, replace(sizes, width=min(max(problem.exact_width(sizes), low), high)))
 
 
@@ -282,14 +288,14 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     >>> motion = gc.Motion([gc.Rise(12, radians(40)), gc.Dwell(radians(60)), gc.Return(12, radians(40)),
     ...     gc.Dwell(radians(220))])
     >>> sized_cam = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(30, 90), offset=(-20, 20),
-    ...                  roller_radius=(8, 15), face_width=(10, 30), permitted_stress=1500)
+    ...                  roller_radius=(8, 15), width=(10, 30), permitted_stress=1500)
     >>> for cam in pareto_front(sized_cam.problem, 3):
     ...     print(round(cam.radius, 2), round(cam.stress))
     41.12 1500
     65.56 1030
     90.0 865
     """
-    widest = problem.face_width[1]
+    widest = problem.width[1]
     smallest = replace(best_cam(problem, "size").sizes, width=widest)
     calmest = best_cam(problem, "stress")
     front, low, watched = [sized_cam(problem, smallest)], problem.radius[0], WatchedPlaces(problem)
@@ -313,7 +319,7 @@ def _undominated(cams: list[SizedCam]) -> list[SizedCam]:
 def _narrowest(problem: SizingProblem, smallest: Sizes) -> Sizes:
     """The minimum face width at a radius, by the choice of offset and roller."""
     radius = problem.values(smallest)[0]
-    widest = problem.face_width[1]
+    widest = problem.width[1]
     fixed = exchange(replace(problem, radius=(radius, radius)), "width", smallest, WatchedPlaces(problem))
     candidates = [smallest]
     if problem.keeps(found := replace(fixed, width=widest)):
@@ -337,8 +343,8 @@ def sized_cam(problem: SizingProblem, sizes: Sizes) -> SizedCam:
     angles = [extremes.pressure_angle_rise[0]]
     if problem.limits.return_ is not None:
         angles.append(extremes.pressure_angle_return[0])
-    exact = max(map(abs, angles)), extremes.min_convex_radius[0], stress.greatest().value
-    width, widest = problem.exact_width(sizes), replace(sizes, width=problem.face_width[1])
+    exact = max(map(abs, angles)), extremes.min_convex_radius[0], stress.max_pressure().value
+    width, widest = problem.exact_width(sizes), replace(sizes, width=problem.width[1])
     binding, active = ((*_no_room(problem, each), *ends) for each in (widest, sizes))
     return SizedCam(stress.forces.cam, sizes.offset, sizes.width, width, *exact, binding, active, problem)
 
@@ -378,7 +384,7 @@ class FeasibleRegion:
 
 def across_size(problem: SizingProblem) -> Across:
     """The first size that has a range; the offset where all others are given."""
-    ranges = problem.offset, problem.roller_radius, problem.face_width
+    ranges = problem.offset, problem.roller_radius, problem.width
     names: tuple[Across, Across, Across] = ("offset", "roller radius", "face width")
     for name, (low, high) in zip(names, ranges, strict=True):
         if low < high:
@@ -398,7 +404,7 @@ def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
     rollers = np.linspace(low, high, ROLLER_COUNT if low < high else 1)[:, None]
     offset = tried if across == "offset" else problem.offset[0]
     roller = tried if across == "roller radius" else rollers
-    width = tried if across == "face width" else problem.face_width[1]
+    width = tried if across == "face width" else problem.width[1]
 
     def left(radius: Floats) -> dict[str, Floats]:
         """The margin of every limit with the best roller, and of all together."""

@@ -240,7 +240,7 @@ class SizingProblem:
     radius: Range
     offset: Range
     roller_radius: Range
-    face_width: Range
+    width: Range
     rotation: Rotation
     measure: Measure = "prime radius"
 
@@ -306,7 +306,7 @@ class SizingProblem:
     @property
     def ranges(self) -> dict[str, Range]:
         """The ranges by the names of the sizes, in the order of the search."""
-        widths = self.roller_radius, self.face_width
+        widths = self.roller_radius, self.width
         return {
             self.measure: self.radius,
             "offset": self.offset,
@@ -320,7 +320,7 @@ class SizingProblem:
         ------
         DesignError : it does not
         """
-        least = Contact(self.motion, self.load).least_force()
+        least = Contact(self.motion, self.load).min_force()
         if least.value < -BINDING_SHARE * abs(self.load.preload):
             limit = say("0 N or more, so that the follower stays on its cam")
             remedy = say("preload the spring: spring_preload(...) tells the minimum")

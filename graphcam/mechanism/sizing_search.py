@@ -118,7 +118,7 @@ def polished(problem: SizingProblem, sizes: Sizes) -> Sizes:
 
 
 def _with_widest_face(problem: SizingProblem, sizes: Sizes) -> Sizes:
-    return replace(sizes, width=problem.face_width[1])
+    return replace(sizes, width=problem.width[1])
 
 
 def _least_margin(problem: SizingProblem, sizes: Sizes, names: Collection[str]) -> float:
@@ -131,7 +131,7 @@ def _starts(problem: SizingProblem, goal: Goal, names: Collection[str] = LIMITS)
     ranges = problem.radius_ends, problem.offset, problem.roller_radius
     axes = [np.linspace(0, 1, n if high > low else 1) for (low, high), n in zip(ranges, GRID_SHAPE, strict=True)]
     shares = [axis.reshape(-1, 1) for axis in np.meshgrid(*axes, indexing="ij")]
-    places, widest = TurnPlaces.spread(problem.motion, problem.load), problem.face_width[1]
+    places, widest = TurnPlaces.spread(problem.motion, problem.load), problem.width[1]
     grid = problem.at_shares(shares[0], shares[1], shares[2], widest)
     left = problem.margins(places, grid)
     worst = np.min([left[name].min(axis=-1) for name in names], axis=0)
@@ -149,7 +149,7 @@ def _solve(
     """Sequential quadratic programming with constraints at the places alone: the sizes, and the room that is left."""
     from scipy.optimize import minimize
 
-    widest = problem.face_width[1]
+    widest = problem.width[1]
     least = MIN_WIDTH_SHARE * widest if goal == "width" else widest
     ranges = problem.radius_ends, problem.offset, problem.roller_radius, (least, widest)
     free = np.array([high > low for low, high in ranges])

@@ -212,6 +212,20 @@ VALUE_ROUNDING = 32 * np.finfo(np.float64).eps
 """Values that differ by less than this part of their terms are the same value."""
 
 
+class Extreme(NamedTuple):
+    """A value, and the cam angle [rad] of its place."""
+
+    value: float
+    phi: float
+
+
+class Interval(NamedTuple):
+    """An interval of the cam angle [rad]; an end beyond 2 pi lies in the next turn."""
+
+    start: float
+    end: float
+
+
 class ValueAt(NamedTuple):
     """A value at a cam angle [rad]; at a jump it is the limit from the named side."""
 

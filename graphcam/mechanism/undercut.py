@@ -13,8 +13,11 @@ two smooth cusps at m -+ t the crossing lies near m -+ sqrt(3) t.  Crossings of 
 by those of a polygon through points of the profile.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,18 +44,26 @@ PROFILE_SAMPLES = 1500
 MIN_PIECE_SAMPLES, MAX_PIECE_SAMPLES = 9, 65
 
 
+class Crossing(NamedTuple):
+    """The corner (x, y) [mm] that an undercut leaves, and the cam angles [rad] on the two branches that meet there."""
+
+    phi1: float
+    phi2: float
+    x: float
+    y: float
+
+
 @dataclass(frozen=True)
 class Undercut:
     """A part of the profile that is lost, from one side of a corner of the cam to the other.
 
     cusps : the cam angles [rad] of the cusps in it, in order: two, or more where loops have swallowed each other, or
         none where two flanks cross.  Two equal ones are a single cusp without a loop
-    crossing : (phi1, phi2, x, y), the cam angles [rad] on the two branches and the corner [mm]; what lies from phi1 on
-        to phi2 is lost
+    crossing : the corner; what lies from its phi1 on to its phi2 is lost
     """
 
     cusps: tuple[float, ...]
-    crossing: tuple[float, float, float, float]
+    crossing: Crossing
 
     @property
     def is_cusp(self) -> bool:
@@ -98,7 +109,9 @@ def undercuts(envelope: Envelope) -> list[Undercut]:
             at = complex(envelope.point(phi, envelope.piece(phi)))
             found.append((LostStretch(phi, phi, at), [phi, phi]))
     return [
-        Undercut(tuple(map(_wrapped, inside)), (_wrapped(part.begin), _wrapped(part.end), part.at.real, part.at.imag))
+        Undercut(
+            tuple(map(_wrapped, inside)), Crossing(_wrapped(part.begin), _wrapped(part.end), part.at.real, part.at.imag)
+        )
         for part, inside in sorted(found, key=lambda item: item[0].begin)
     ]
 

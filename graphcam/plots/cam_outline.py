@@ -24,25 +24,31 @@ FACE_HALF_LENGTH = 0.5
 SENSE_NAMES = {"ccw": "anticlockwise", "cw": "clockwise"}
 
 
-def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:
-    """Draw a cam in its own coordinates [mm], as it stands at the start of the turn; returns the axes."""
+def plot(cam: Cam, on: Axes | Figure | None = None, label: str = "", color: str | None = None) -> Axes:
+    """Draw a cam in its own coordinates [mm], as it stands at the start of the turn; returns the axes.
+
+    Under a label the working profile alone stands in the legend.
+    """
     axes = axes_on(on, *FIGURE_SIZE)
     phi = turn(cam.motion.breaks)
     pitch, profile = cam.pitch_curve(phi), cam.profile(phi)
-    flat = np.array_equal(pitch, profile)
+    flat, unnamed = np.array_equal(pitch, profile), "_" if label else ""
     if not flat:
-        axes.plot(*pitch.T, color=GREY, linewidth=1.0, linestyle=(0, (9, 2, 1, 2)), label="pitch curve")
-    axes.plot(*profile.T, color=BLACK, linewidth=2.0, label="working profile")
+        axes.plot(
+            *pitch.T, color=color or GREY, linewidth=1.0, linestyle=(0, (9, 2, 1, 2)), label=f"{unnamed}pitch curve"
+        )
+    axes.plot(*profile.T, color=color or BLACK, linewidth=2.0, label=label or "working profile")
     circle = np.stack([np.cos(phi), np.sin(phi)], axis=-1)
-    prime = f"prime circle, {cam.prime_radius:.6g} mm"
-    axes.plot(*(cam.prime_radius * circle).T, color=GREY, linewidth=1.0, linestyle="--", label=prime)
+    prime = f"{unnamed}prime circle, {cam.prime_radius:.6g} mm"
+    axes.plot(*(cam.prime_radius * circle).T, color=color or GREY, linewidth=1.0, linestyle="--", label=prime)
     if cam.roller_radius:
         roller = cam.pitch_curve(0.0) + cam.roller_radius * circle
-        axes.plot(*roller.T, color=CURRENT_COLOUR, linewidth=1.5, label=f"roller, {cam.roller_radius:.6g} mm")
+        named = f"{unnamed}roller, {cam.roller_radius:.6g} mm"
+        axes.plot(*roller.T, color=color or CURRENT_COLOUR, linewidth=1.5, label=named)
     if flat:
         half, up = FACE_HALF_LENGTH * cam.prime_radius, profile[0, 1]
-        axes.plot([-half, half], [up, up], color=CURRENT_COLOUR, linewidth=1.5, label="flat face")
-    mark_centre(axes)
+        axes.plot([-half, half], [up, up], color=color or CURRENT_COLOUR, linewidth=1.5, label=f"{unnamed}flat face")
+    mark_centre(axes, unnamed)
     axes.set_title(f"Cam that turns {SENSE_NAMES[cam.rotation]}, at φ = 0", fontsize="medium")
     return finish_axes(axes)
 
@@ -53,13 +59,14 @@ def turn(breaks: Floats) -> Floats:
     return np.unique(np.linspace(ends[:-1], ends[1:], PIECE_POINTS))
 
 
-def mark_centre(axes: Axes) -> None:
+def mark_centre(axes: Axes, unnamed: str) -> None:
     """Draw a cross at the cam centre."""
-    axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=10, label="cam centre")
+    axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=10, label=f"{unnamed}cam centre")
 
 
 def finish_axes(axes: Axes) -> Axes:
     """Set equal scales and axis labels, and put the legend below the cam, in room of its own; returns the axes."""
+    axes.autoscale()
     bottom, top = axes.get_ylim()
     axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - LEGEND_ROOM * (top - bottom), top))
     axes.legend(loc="lower center", ncols=2, frameon=False, fontsize="small")
@@ -70,18 +77,20 @@ MAX_CENTRE_DISTANCE = 1.2
 """The distance up to which a centre is shown, as a multiple of the cam's maximum radius."""
 
 
-def plot_arcs(cam: ThreeArcCam, on: Axes | Figure | None = None) -> Axes:
+def plot_arcs(cam: ThreeArcCam, on: Axes | Figure | None = None, label: str = "", color: str | None = None) -> Axes:
     """Draw the profile of a sound cam, its flank's arcs and their centres [mm]; returns the axes."""
     motion = cam.motion()  # of a knife edge, which runs on the profile itself
     axes = axes_on(on, *FIGURE_SIZE)
-    axes.plot(*motion.pitch_curve(turn(motion.breaks)).T, color=BLACK, linewidth=2.0, label="profile")
+    axes.plot(*motion.pitch_curve(turn(motion.breaks)).T, color=color or BLACK, linewidth=2.0, label=label or "profile")
     joints = np.array([cam.A, cam.G, cam.F, cam.D])
     reach = MAX_CENTRE_DISTANCE * float(np.max(np.hypot(*joints.T)))
     centres = {name: at for name in ("C1", "C2", "C3") if np.hypot(*(at := getattr(cam, name))) <= reach}
-    axes.plot(*joints.T, "o", color=CURRENT_COLOUR, markersize=4, label="arc ends")
-    axes.plot(*np.array(list(centres.values())).reshape(-1, 2).T, "o", color=GREY, markersize=4, label="arc centres")
+    unnamed = "_" if label else ""
+    axes.plot(*joints.T, "o", color=color or CURRENT_COLOUR, markersize=4, label=f"{unnamed}arc ends")
+    at_centres = np.array(list(centres.values())).reshape(-1, 2)
+    axes.plot(*at_centres.T, "o", color=color or GREY, markersize=4, label=f"{unnamed}arc centres")
     for name, at in {**dict(zip("AGFD", joints, strict=True)), **centres}.items():
         axes.annotate(name, (at[0], at[1]), xytext=(5, 5), textcoords="offset points")
-    mark_centre(axes)
+    mark_centre(axes, unnamed)
     axes.margins(0.1)  # for the names
     return finish_axes(axes)

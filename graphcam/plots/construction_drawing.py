@@ -21,7 +21,11 @@ FIGURE_MARGIN = 1.0
 
 
 def plot(
-    drawn: Construction | Step | Mapping[str, Construction], on: Axes | Figure | None = None, step: int | None = None
+    drawn: Construction | Step | Mapping[str, Construction],
+    on: Axes | Figure | None = None,
+    label: str = "",
+    color: str | None = None,
+    step: int | None = None,
 ) -> Axes:
     """Draw on axes in mm of paper from the origin of the first view; returns the axes.
 
@@ -44,20 +48,23 @@ def plot(
         raise DesignError("drawing", say("empty"), limit, say("see the captions of the steps, and the readings"))
     if step is not None and step not in range(count):
         limit = say("an index of the steps, 0 to {value}, or None for all of them", value=count - 1)
-        raise DesignError("step", step, limit, say("axes to draw on are given as axes=..."))
+        raise DesignError("step", step, limit, say("axes to draw on are given as ax=..."))
     page = board.page(step)
     axes = axes_on(on, page.width / MM_PER_INCH + FIGURE_MARGIN, page.height / MM_PER_INCH + FIGURE_MARGIN)
-    draw_on(axes, page, board.origin, board.factor)
+    draw_on(axes, page, board.origin, board.factor, color)
     axes.set(xlabel="mm of paper", ylabel="mm of paper")
-    if len(board.views) == 1:
-        axes.set_title(str(*(view.title for view in board.views.values())), fontsize="medium")
+    if label or len(board.views) == 1:
+        axes.set_title(label or str(next(iter(board.views.values())).title), fontsize="medium")
     return axes
 
 
-def plot_sheet(solution: AnySolution, on: Axes | Figure | None = None) -> Axes:
+def plot_sheet(
+    solution: AnySolution, on: Axes | Figure | None = None, label: str = "", color: str | None = None
+) -> Axes:
     """Draw the first page of the finished sheet on axes in mm of paper from its lower left corner; returns them."""
     page = sheet_of(solution).pages[0]
     axes = axes_on(on, page.width / MM_PER_INCH, page.height / MM_PER_INCH)
-    draw_on(axes, page)
+    draw_on(axes, page, colour=color)
     axes.set_axis_off()  # the sheet has a frame of its own
+    axes.set_title(label, fontsize="medium")
     return axes

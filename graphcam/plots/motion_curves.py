@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.motion_bands import MotionBands
-from graphcam.plots.figures import axes_on
+from graphcam.plots.figures import axes_on, diagrams_in
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 CURVE_LABELS = (("lift s", BLACK), ("v = ds/dφ", CURRENT_COLOUR), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
@@ -22,8 +22,6 @@ FIGURE_SIZE = 7.0, 7.0
 """The size of a new figure [inches]."""
 PIECE_POINTS = 61
 """The number of points of each curve between two breaks."""
-DIAGRAM_GAP = 0.03
-"""The gap between two diagrams, as a part of the axes."""
 AXIS_NAME_OFFSET = -0.125
 """The horizontal place of the axis labels, as a part of the diagram's width."""
 MIN_NAME_ANGLE, MIN_UPRIGHT_NAME_ANGLE = 28.0, 8.0
@@ -48,18 +46,15 @@ class PhasedMotion(Protocol):
         ...
 
 
-def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
+def plot(motion: PhasedMotion, on: Axes | Figure | None = None, label: str = "", color: str | None = None) -> Axes:
     """Draw s, v, a and j in four diagrams inside of axes; returns the axes, whose ``child_axes`` are the diagrams."""
     axes = axes_on(on, *FIGURE_SIZE)
-    axes.set_axis_off()
+    second = bool(axes.child_axes)
+    diagrams = diagrams_in(axes, len(CURVE_LABELS))
     phi, values = _curves(motion)
-    height = (1 + DIAGRAM_GAP) / len(CURVE_LABELS)
-    diagrams = [
-        axes.inset_axes((0.0, k * height, 1.0, height - DIAGRAM_GAP)) for k in reversed(range(len(CURVE_LABELS)))
-    ]
     for diagram, (up, colour), value in zip(diagrams, CURVE_LABELS, values, strict=True):
-        diagram.plot(np.degrees(phi), value, color=colour, linewidth=1.5)
-        if not np.any(value):
+        diagram.plot(np.degrees(phi), value, color=color or colour, linewidth=1.5, label=label or None)
+        if not second and not np.any(value):
             diagram.set(ylim=(-1.0, 1.0), yticks=[0.0])  # of no height there would be divisions of a hundredth
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         for _, start, _ in motion.timing:
@@ -69,7 +64,10 @@ def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
         # Their labels stand one under the other, however wide the numbers are.
         diagram.yaxis.set_label_coords(AXIS_NAME_OFFSET, 0.5)
         diagram.spines[["top", "right"]].set_visible(False)
-    _name_phases(diagrams[0], motion)
+    if not second:
+        _name_phases(diagrams[0], motion)
+    if label:
+        diagrams[0].legend(frameon=False, fontsize="small")
     diagrams[-1].set_xlabel(ANGLE_LABEL)
     return axes
 
@@ -107,23 +105,21 @@ BAND_NAME_OFFSET = -0.12
 """The horizontal place of the axis labels beside bands, as a part of the diagrams' width."""
 
 
-def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
+def plot_bands(bands: MotionBands, on: Axes | Figure | None = None, label: str = "", color: str | None = None) -> Axes:
     """Draw s, v and a in three diagrams inside of axes; returns the axes, whose ``child_axes`` they are."""
     axes = axes_on(on, *BAND_FIGURE_SIZE)
-    axes.set_axis_off()
-    height = (1 + DIAGRAM_GAP) / 3
-    diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - DIAGRAM_GAP)) for k in (2, 1, 0)]
+    diagrams = diagrams_in(axes, len(CURVE_SYMBOLS))
     degrees, sample = np.degrees(bands.phi), bands.sample
     for k, (diagram, symbol) in enumerate(zip(diagrams, CURVE_SYMBOLS, strict=True)):
         nominal, half = bands.nominal[k], bands.half_width[k]
         times = magnification(nominal, half)
         low, high = nominal + times * sample.low[k], nominal + times * sample.high[k]
-        label = f"{bands.samples} mechanisms, solved"
-        diagram.fill_between(degrees, low, high, color=CURRENT_COLOUR, alpha=0.3, linewidth=0, label=label)
+        solved = f"{bands.samples} mechanisms, solved"
+        diagram.fill_between(degrees, low, high, color=color or CURRENT_COLOUR, alpha=0.3, linewidth=0, label=solved)
         for sign in (-1, 1):
-            label = "to the first order" if sign > 0 else None
-            diagram.plot(degrees, nominal + sign * times * half, color=ACCENT, linewidth=1.0, label=label)
-        diagram.plot(degrees, nominal, color=BLACK, linewidth=1.2, label="nominal")
+            order = "to the first order" if sign > 0 else None
+            diagram.plot(degrees, nominal + sign * times * half, color=color or ACCENT, linewidth=1.0, label=order)
+        diagram.plot(degrees, nominal, color=color or BLACK, linewidth=1.2, label=label or "nominal")
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         for _, start, _ in bands.cam.motion.timing:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))

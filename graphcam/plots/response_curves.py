@@ -10,8 +10,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.follower_train import VibratingFollower
 from graphcam.mechanism.shock_response import FollowerResponse, ShockSpectrum
-from graphcam.plots.figures import axes_on
-from graphcam.plots.motion_curves import DIAGRAM_GAP
+from graphcam.plots.figures import axes_on, diagrams_in
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 FIGURE_SIZE = 7.0, 5.0
@@ -24,16 +23,19 @@ AXIS_NAME_OFFSET = -0.11
 """The horizontal place of the axis labels, as a part of the diagrams' width."""
 
 
-def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None = None) -> Axes:
+def plot(
+    shown: FollowerResponse | VibratingFollower,
+    on: Axes | Figure | None = None,
+    label: str = "",
+    color: str | None = None,
+) -> Axes:
     """Draw two diagrams inside of axes, one above the other; returns the axes, whose ``child_axes`` they are."""
     axes = axes_on(on, *FIGURE_SIZE)
-    axes.set_axis_off()
-    height = (1 + DIAGRAM_GAP) / 2
-    upper, lower = (axes.inset_axes((0.0, low, 1.0, height - DIAGRAM_GAP)) for low in (height, 0.0))
+    upper, lower = diagrams_in(axes, 2)
     if isinstance(shown, FollowerResponse):
-        _response(shown, upper, lower)
+        _response(shown, upper, lower, label or "mass", color)
     else:
-        _turn(shown, upper, lower)
+        _turn(shown, upper, lower, label or "mass", color)
     for diagram in (upper, lower):
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         diagram.spines[["top", "right"]].set_visible(False)
@@ -43,7 +45,7 @@ def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None =
     return axes
 
 
-def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
+def _response(response: FollowerResponse, upper: Axes, lower: Axes, label: str, color: str | None) -> None:
     """Plot displacement and acceleration of the cam and of the mass over the time."""
     end = response.event.end
     until = end + max(SHOWN_AFTER_RISE[0], SHOWN_AFTER_RISE[1] / response.n)
@@ -57,9 +59,9 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
     s[u <= 0] = 0.0
     x, _, x2 = response(u)
     upper.plot(u, s, color=GREY, linewidth=1.5, linestyle=(0, (6, 3)), label="cam")
-    upper.plot(u, x, color=CURRENT_COLOUR, linewidth=1.5, label="mass")
+    upper.plot(u, x, color=color or CURRENT_COLOUR, linewidth=1.5, label=label)
     lower.plot(u, a, color=GREY, linewidth=1.5, linestyle=(0, (6, 3)), label="cam")
-    lower.plot(u, x2, color=ACCENT, linewidth=1.5, label="mass")
+    lower.plot(u, x2, color=color or ACCENT, linewidth=1.5, label=label)
     for diagram in (upper, lower):
         diagram.axvline(end, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
         diagram.set_xlim(0, until)
@@ -70,19 +72,20 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
     upper.set_title(title, fontsize="medium")
 
 
-def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
+def _turn(follower: VibratingFollower, upper: Axes, lower: Axes, label: str, color: str | None) -> None:
     """Plot the acceleration of the cam and of the mass, and the force on the cam, over the turn."""
     phi = _dense_angles(follower)
     found = follower(phi)
     degrees = np.degrees(phi)
     upper.plot(degrees, follower.motion(phi)[2], color=GREY, linewidth=1.2, linestyle=(0, (6, 3)), label="cam")
-    upper.plot(degrees, found.a, color=CURRENT_COLOUR, linewidth=1.5, label="mass")
-    lower.plot(degrees, found.force, color=BLACK, linewidth=1.5, label="force on the cam")
+    upper.plot(degrees, found.a, color=color or CURRENT_COLOUR, linewidth=1.5, label=label)
+    force = "force on the cam" if label == "mass" else label
+    lower.plot(degrees, found.force, color=color or BLACK, linewidth=1.5, label=force)
     for number, (start, end) in enumerate(follower.lost()):
         for turned in (0.0, FULL_TURN):  # an end beyond the turn is shown at its beginning
             span = np.degrees([start - turned, end - turned])
-            label = "contact is lost" if number == 0 and turned == 0 else None
-            lower.axvspan(*span, color=ACCENT, alpha=0.3, linewidth=0, label=label)
+            lost = "contact is lost" if number == 0 and turned == 0 else None
+            lower.axvspan(*span, color=color or ACCENT, alpha=0.3, linewidth=0, label=lost)
     for diagram in (upper, lower):
         diagram.set(xlim=(0, 360), xticks=range(0, 361, 30))
         for _, start, _ in follower.motion.timing:
@@ -112,22 +115,25 @@ MAX_LINEAR_DECADES = 2.0
 """The maximum number of decades of the ratios on a linear scale; more stand on a logarithmic one."""
 
 
-def plot_spectrum(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> Axes:
+def plot_spectrum(
+    spectrum: ShockSpectrum, on: Axes | Figure | None = None, label: str = "", color: str | None = None
+) -> Axes:
     """Draw primary and residual accelerations over n, with the cam's own maximum acceleration; returns the axes."""
     axes = axes_on(on, *SIZE_OF_SPECTRUM)
     order = np.argsort(spectrum.n)
     n = spectrum.n[order]
     axes.axhline(spectrum.peak, color=GREY, linewidth=1.0, linestyle=(0, (6, 4)), label="the cam's own, $C_a$")
     marker = "o" if n.size < MIN_CURVE_POINTS else ""
-    for values, colour, label in (
-        (spectrum.primary, BLACK, "during the rise (primary)"),
-        (spectrum.residual, ACCENT, "in the dwell after it (residual)"),
+    before = f"{label}, " if label else ""
+    for values, colour, line, name in (
+        (spectrum.primary, BLACK, "-", "during the rise (primary)"),
+        (spectrum.residual, ACCENT, "--" if color else "-", "in the dwell after it (residual)"),
     ):
-        axes.plot(n, values[order], color=colour, marker=marker, linewidth=1.5, label=label)
+        axes.plot(n, values[order], line, color=color or colour, marker=marker, linewidth=1.5, label=f"{before}{name}")
     axes.set(
         xlabel="n, time of the rise over natural period",
         ylabel="maximum acceleration, $h/T^2$",
-        ylim=(0, AXIS_ROOM * max(float(spectrum.greatest.max()), spectrum.peak)),
+        ylim=(0, AXIS_ROOM * max(float(spectrum.maximum.max()), spectrum.peak)),
     )
     if n[-1] > 10**MAX_LINEAR_DECADES * n[0]:
         axes.set_xscale("log")

@@ -43,7 +43,7 @@ def contact(solution: Solution) -> list[Block]:
     load, needed, least, lost = (
         spring.load,
         spring.least,
-        spring.contact.least_force(),
+        spring.contact.min_force(),
         and_list(spring.lost),
     )
     along, preload, _ = spring.units
@@ -151,7 +151,7 @@ def forces(solution: Solution) -> list[Block]:
     """The chapter on normal force and torque: formulas, extremes, and the values at the stations."""
     spring = _spring(solution)
     mean, most, fewest = spring.torques
-    least, greatest = spring.forces.least_normal(), spring.greatest_normal
+    least, greatest = spring.forces.min_normal(), spring.max_normal
     rubs = say(
         "Between cam and follower there is friction with $\\mu = {friction}$: the force $\\mu N$ acts along the "
         "profile, in the cam's sense, and $w$ is the sliding speed divided by $\\omega$.",
@@ -247,7 +247,7 @@ def contact_stress(solution: Solution) -> list[Block]:
 
 def _stress_blocks(stress: StressDesign) -> list[Block]:
     roller = stress.forces.cam.roller_radius
-    at, greatest = stress.contact, stress.greatest
+    at, greatest = stress.contact, stress.max_pressure
     assert at is not None
     assert greatest is not None
     force, half_width, radius = float(at.force), float(at.half_width), float(at.profile_radius)
@@ -287,9 +287,9 @@ def _stress_blocks(stress: StressDesign) -> list[Block]:
 def _verdict(stress: StressDesign) -> list[Caption]:
     """The sentences on whether the stress is permitted, and on the width that it needs."""
     limit = stress.material.permitted_stress
-    if limit is None or stress.greatest is None or stress.least_width is None:
+    if limit is None or stress.max_pressure is None or stress.min_width is None:
         return []
-    values = {"limit": limit, "width": number(rounded_up(stress.least_width))}
+    values = {"limit": limit, "width": number(rounded_up(stress.min_width))}
     if stress.permitted:
         kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would be enough.")
         return [kept.with_values(**values)]

@@ -157,7 +157,7 @@ def _measured(solution: Solution) -> list[Row]:
     swings = solution.chain.board.follower.unit == "rad"
     # To a tenth of the tolerance's last decimal: a smaller deviation is none.
     decimals = 1 + max(0, -math.floor(math.log10(motion.tolerance / lift_unit)))
-    greatest, rms = (number(x / lift_unit, decimals) for x in (motion.greatest_residual, motion.rms_residual))
+    greatest, rms = (number(x / lift_unit, decimals) for x in (motion.max_residual, motion.rms_residual))
     said = say("at most {greatest}°, rms {rms}°") if swings else say("at most {greatest} mm, rms {rms} mm")
     what = say("points of the cam") if isinstance(motion, TracedMotion) else say("table of the motion")
     return [

@@ -1,5 +1,7 @@
 """The sheet of a sized cam: the region of permitted cams, the best cam, and the front of radius and stress."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -161,7 +163,7 @@ class _Chart:
     axes: ChartAxes
 
     @classmethod
-    def of(cls, sized: SizedCam, region: FeasibleRegion, size: complex) -> "_Chart":
+    def of(cls, sized: SizedCam, region: FeasibleRegion, size: complex) -> _Chart:
         """The chart with axes as long as the ranges."""
         problem = sized.problem
         across, radii = problem.ranges[region.across], problem.radius
@@ -257,8 +259,8 @@ def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> St
         Line(points, Role.CURVE),
         Dots(points),
         Dots(np.array([found]), Role.RESULT),
-        Label(complex(points[points.size // 2]), say("face {width:g} mm", width=problem.face_width[1]), towards=1 + 1j),
-        Label(found, BEST_CAM_LABEL.with_values(stress=sized.stress, width=sized.face_width), towards=1 + 1j),
+        Label(complex(points[points.size // 2]), say("face {width:g} mm", width=problem.width[1]), towards=1 + 1j),
+        Label(found, BEST_CAM_LABEL.with_values(stress=sized.stress, width=sized.width), towards=1 + 1j),
     ]
     title = say("Stress over {radius}", radius=SIZE_CAPTIONS[problem.measure])
     view = View("front", title, across="front radius", up="front stress")

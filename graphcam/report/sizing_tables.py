@@ -60,10 +60,10 @@ def front_table(front: Sequence[SizedCam]) -> Table:
         (
             *(
                 say("{value:.2f}", value=round(x, 2) + 0.0)
-                for x in (cam.radius, cam.offset, cam.cam.roller_radius, cam.face_width)
+                for x in (cam.radius, cam.offset, cam.cam.roller_radius, cam.width)
             ),
             say("{value:.1f}", value=cam.stress),
-            say("{value:.2f}", value=cam.least_width),
+            say("{value:.2f}", value=cam.min_width),
         )
         for cam in front
     )

@@ -83,15 +83,16 @@ def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float =
         path.write(png)
 
 
-def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -> None:
+def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0, colour: str | None = None) -> None:
     """Draw a page on axes of equal scales; letters and lines grow and shrink with them, as those of a print do.
 
     origin : where the axes' origin lies on the page [mm]
     factor : millimetres of the page to one unit of the axes
+    colour : of all lines and letters, in place of their own
     """
     to_axes = Affine2D().translate(-origin.real, -origin.imag).scale(1 / factor)
     for group in page.groups:
-        axes.add_artist(_GroupArtist(group, to_axes + axes.transData))
+        axes.add_artist(_GroupArtist(group, to_axes + axes.transData, colour=colour))
     (left, bottom), (right, top) = to_axes.transform([(0.0, 0.0), (page.width, page.height)]).tolist()
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
 
@@ -110,11 +111,14 @@ class _GroupArtist(Artist):
 
     to_device : the transform from mm of the page
     embeds_cubic : whether letters of cubic outlines are drawn as text
+    colour : in place of those of the roles
     """
 
-    def __init__(self, group: Group, to_device: Transform, *, embeds_cubic: bool = True) -> None:
+    def __init__(
+        self, group: Group, to_device: Transform, *, embeds_cubic: bool = True, colour: str | None = None
+    ) -> None:
         super().__init__()
-        self.group, self.to_device, self.embeds_cubic = group, to_device, embeds_cubic
+        self.group, self.to_device, self.embeds_cubic, self.colour = group, to_device, embeds_cubic, colour
         self.set_in_layout(False)
 
     def draw(self, renderer: RendererBase) -> None:
@@ -144,19 +148,19 @@ class _GroupArtist(Artist):
         return context
 
     def _draw_path(self, renderer: RendererBase, path: Path, kind: str, role: str) -> None:
-        style = STYLES_BY_ROLE[role]
-        context = self._context(renderer, style.colour, 0.0 if kind == "filled" else style.width)
+        style, colour = STYLES_BY_ROLE[role], self.colour or STYLES_BY_ROLE[role].colour
+        context = self._context(renderer, colour, 0.0 if kind == "filled" else style.width)
         context.set_joinstyle("miter" if kind == "filled" else "round")
         context.set_capstyle("butt")
         context.set_snap(False)
         if style.pattern and kind == "line":
             context.set_dashes(0.0, [self._times * POINTS_PER_MM * mm for mm in style.pattern])
-        fill = {"filled": to_rgba(style.colour), "opaque": PAPER_COLOUR}.get(kind)
+        fill = {"filled": to_rgba(colour), "opaque": PAPER_COLOUR}.get(kind)
         renderer.draw_path(context, path, self.to_device, fill)
         context.restore()
 
     def _draw_texts(self, renderer: RendererBase, texts: Sequence[Text], role: str) -> None:
-        context = self._context(renderer, STYLES_BY_ROLE[role].colour, STYLES_BY_ROLE[role].width)
+        context = self._context(renderer, self.colour or STYLES_BY_ROLE[role].colour, STYLES_BY_ROLE[role].width)
         set_pieces = [(piece, at, text.angle) for text in texts for piece, at in _set_pieces(text)]
         places = self.to_device.transform(_xy(np.array([at for _, at, _ in set_pieces])))
         if renderer.flipy():

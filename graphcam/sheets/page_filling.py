@@ -63,7 +63,8 @@ class TooLargeError(DesignError):
 def _too_large(sheet: Format, panel: Panel) -> TooLargeError:
     box = panel.box
     best = max(free_rooms(sheet), key=lambda room: min(room[0] / box.width, room[1] / box.height))
-    size, most = (f"{wide:.0f} × {high:.0f} mm" for wide, high in ((box.width, box.height), best))
+    sides = say("{width:.0f} × {height:.0f} mm")
+    size, most = (sides.with_values(width=w, height=h) for w, h in ((box.width, box.height), best))
     limit = say("at most about {most} on {said}", most=most, said=sheet.description)
     remedy = say("take a larger format or a smaller scale")
     return TooLargeError(say("the view {name!r}", name=panel.view.name), size, limit, remedy)

@@ -16,7 +16,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.contact import least_preload
+from graphcam.mechanism.contact import spring_preload
 from graphcam.mechanism.sizing import Objective, SizedCam, best_cam, pareto_front, sized_cam
 from graphcam.mechanism.sizing_limits import Measure, Sizes, SizingLimits, SizingProblem
 from graphcam.showing import higher_function, value_text
@@ -146,8 +146,8 @@ def plain_cam(cam: SizedCam) -> dict[str, float]:
         "base_radius": cam.cam.prime_radius - cam.cam.roller_radius,
         "offset": cam.offset + 0.0,
         "roller_radius": cam.cam.roller_radius,
-        "width": cam.face_width,
-        "least_width": cam.least_width,
+        "width": cam.width,
+        "least_width": cam.min_width,
         "max_pressure_angle_deg": math.degrees(cam.max_pressure_angle),
         "min_pitch_curvature_radius": cam.min_convex_radius,
         "stress": cam.stress,
@@ -163,7 +163,7 @@ def adopted(best: SizedCam, objective: Objective, step: float) -> SizedCam:
             cams = [sized_cam(best.problem, sizes) for sizes in kept]
             if objective == "stress":
                 return min(cams, key=lambda cam: cam.stress)
-            return min(cams, key=lambda cam: (cam.radius, cam.face_width))
+            return min(cams, key=lambda cam: (cam.radius, cam.width))
     return best
 
 
@@ -174,7 +174,7 @@ def _rounded_sizes(best: SizedCam, objective: Objective, step: float) -> list[Si
     ranges = list(problem.ranges.values())
     others = product(_nearest_multiples(offset, ranges[1], step), _nearest_multiples(roller, ranges[2], step))
     if objective == "stress":
-        near, widest = _nearest_multiples(radius, ranges[0], step), problem.face_width[1]
+        near, widest = _nearest_multiples(radius, ranges[0], step), problem.width[1]
         return [problem.sizes(each, e, r, widest) for e, r in others for each in near]
     found = [_smallest(problem, radius, e, r, step) for e, r in others]
     return [sizes for sizes in found if sizes is not None]
@@ -193,7 +193,7 @@ def _nearest_multiples(value: float, within: tuple[float, float], step: float) -
 def _smallest(problem: SizingProblem, radius: float, offset: float, roller: float, step: float) -> Sizes | None:
     """The minimum round radius that keeps the limits with an offset and a roller, and the minimum round width."""
     low, high = problem.radius
-    widest, narrowest = problem.face_width[1], problem.face_width[0]
+    widest, narrowest = problem.width[1], problem.width[0]
     first = steps_up(radius, step)
     tried = (
         [low] if low == high else [x for k in range(MAX_TRIED_RADII) if low <= (x := multiple(first + k, step)) <= high]
@@ -242,4 +242,4 @@ def _load(cam: Cam, load: SpringLoad, spring: SpringTable) -> SpringLoad:
     """The load; a preload that is left open is the minimum one, which is the same on every cam of the motion."""
     if spring.preload is not None:
         return load
-    return replace(load, preload=max(least_preload(cam, load).preload, 0.0))
+    return replace(load, preload=max(spring_preload(cam, load).preload, 0.0))

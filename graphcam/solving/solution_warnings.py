@@ -27,6 +27,8 @@ MAX_METRES_LIFT = 0.2
 """A lift below so many mm looks like metres."""
 MAX_RADIANS_LIFT = 1.0
 """A lift below so many degrees looks like radians."""
+MAX_STIFFNESS, MAX_MASS = 500.0, 50.0
+"""A stiffness of more N/mm looks like N/m, a mass of more kg like grams."""
 
 
 @dataclass(frozen=True)
@@ -213,6 +215,14 @@ def unit_slips(task: Task) -> Iterator[Caution]:
     elif not swings and lift < MAX_METRES_LIFT:
         said = say("The lift of {lift:g} mm looks like metres: if so, give {meant:g}, in mm.")
         yield Caution(said.with_values(lift=lift, meant=1000 * lift), "unit")
+    for value, most, name, other, factor, unit in (
+        (getattr(task.spring, "stiffness", 0.0), MAX_STIFFNESS, "stiffness", "N/m", 1e-3, "N/mm"),
+        (getattr(task.spring, "mass", 0.0), MAX_MASS, "mass", "g", 1e-3, "kg"),
+    ):
+        if value > most and not task.follower.swings:
+            said = say("spring.{name} = {value:g} {unit} looks like {other}: if so, give {meant:g}, in {unit}.")
+            values = {"name": name, "value": value, "unit": unit, "other": other, "meant": factor * value}
+            yield Caution(said.with_values(**values), "unit")
     if slip := task.limits().slip():
         said = say(
             "The permitted pressure angle of {angle:g}° looks like radians: if so, give {meant:.3g}, in degrees."

@@ -1,5 +1,7 @@
 """Solving a task, of whichever kind."""
 
+from __future__ import annotations
+
 from typing import overload
 
 from graphcam.drafting.pencil import Pencil
@@ -37,4 +39,6 @@ def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution:
     .drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files
     """
     check_kind("task", task, (Task, ArcsTask), remedy=say("load_task(file) reads one; a Cam is exact already"))
+    if pencil is not None:
+        check_kind("pencil", pencil, Pencil, remedy=say("write graphcam.Pencil.of(0.2) for errors of 0.2 mm"))
     return solve_arcs(task, pencil) if isinstance(task, ArcsTask) else solve_motion(task, pencil)

@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.contact import Contact, SpringPreload, least_preload
+from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
 from graphcam.mechanism.forces import CamForces, Forces, mean_torque
 from graphcam.mechanism.jamming import jamming_margin
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
@@ -67,7 +67,7 @@ class SpringDesign:
     @cached_property
     def least(self) -> SpringPreload:
         """The least preload that keeps contact."""
-        return least_preload(self.cam, self.given)
+        return spring_preload(self.cam, self.given)
 
     @property
     def needed(self) -> float:
@@ -90,9 +90,9 @@ class SpringDesign:
         return Contact(self.cam.motion, self.forces.pressing)
 
     @cached_property
-    def greatest_normal(self) -> ValueAt:
+    def max_normal(self) -> ValueAt:
         """The greatest force along the contact normal [N]."""
-        return self.forces.greatest_normal()
+        return self.forces.max_normal()
 
     @cached_property
     def force_plan(self) -> Construction | None:
@@ -153,7 +153,7 @@ class SpringDesign:
     @cached_property
     def torques(self) -> tuple[float, ValueAt, ValueAt]:
         """The mean torque on the cam [N mm], the greatest and the least."""
-        return mean_torque(self.forces), self.forces.greatest_torque(), self.forces.least_torque()
+        return mean_torque(self.forces), self.forces.max_torque(), self.forces.min_torque()
 
     def power(self, torque: float) -> float:
         """The power of the camshaft [W] at a torque [N mm]."""
@@ -161,7 +161,7 @@ class SpringDesign:
 
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: N, N mm and degrees."""
-        least, (along, preload, _) = self.contact.least_force(), self.units
+        least, (along, preload, _) = self.contact.min_force(), self.units
         mean, most, fewest = self.torques
         return {
             "least_preload": {
@@ -171,8 +171,8 @@ class SpringDesign:
             },
             "preload": {"value": self.load.preload, "unit": preload},
             "least_contact_force": plain_place(least, along),
-            "least_normal_force": plain_place(self.forces.least_normal(), "N"),
-            "greatest_normal_force": plain_place(self.greatest_normal, "N"),
+            "least_normal_force": plain_place(self.forces.min_normal(), "N"),
+            "greatest_normal_force": plain_place(self.max_normal, "N"),
             "contact_lost_deg": [[math.degrees(phi) for phi in interval] for interval in self.contact.lost()],
             "friction": self.friction,
             "least_transmission": plain_place(jamming_margin(self.cam, self.friction), ""),
@@ -221,7 +221,7 @@ class SpringDesign:
     def _contact_diagram(self) -> TurnDiagram:
         """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
         contact, along = self.contact, self.units[0]
-        curve, least, lost = contact.curve(), contact.least_force(), tuple(contact.lost())
+        curve, least, lost = contact.curve(), contact.min_force(), tuple(contact.lost())
         said = CONTACT_CAPTIONS[along == "N", "lost" if lost else "idle" if self.idle else "kept"]
         return TurnDiagram(
             "contact",
@@ -240,7 +240,7 @@ class SpringDesign:
 
     def _diagrams(self) -> list[TurnDiagram]:
         forces, flat = self.forces, not self.cam.kinematics.has_pressure_angle
-        margin, (_, most_torque, least_torque) = jamming_margin(self.cam, self.friction), self.torques
+        margin, (_, most_torque, min_torque) = jamming_margin(self.cam, self.friction), self.torques
         make = partial(TurnDiagram, motion=self.cam.motion)
         sliding = make(
             "transmission",
@@ -263,12 +263,12 @@ class SpringDesign:
             caption=say(
                 "N = {formula} is the force along the normal, at {mu:g} N/mm. Its maximum is {greatest}.",
                 formula=NORMAL_FORMULAS[self.moved, bool(self.friction)],
-                greatest=with_unit(self.greatest_normal.value, "N"),
+                greatest=with_unit(self.max_normal.value, "N"),
             ),
             why=say("Along the motion only a part of the normal force acts."),
-            marked=((self.greatest_normal, with_unit(self.greatest_normal.value, "N")),),
+            marked=((self.max_normal, with_unit(self.max_normal.value, "N")),),
         )
-        mean, peak = self.torques[0], max(most_torque, least_torque, key=lambda found: abs(found.value))
+        mean, peak = self.torques[0], max(most_torque, min_torque, key=lambda found: abs(found.value))
         torque = make(
             "torque",
             say("The torque on the cam"),
@@ -332,7 +332,7 @@ class SpringDesign:
         return [*rows, (say("preload F₀"), with_unit(load.preload, preload), open_or_not)]
 
     def _found_rows(self) -> list[Row]:
-        least, greatest, (along, preload, _) = self.contact.least_force(), self.greatest_normal, self.units
+        least, greatest, (along, preload, _) = self.contact.min_force(), self.max_normal, self.units
         mean, most, fewest = self.torques
         lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")

@@ -85,7 +85,7 @@ class StressDesign:
             return "knife edge"
         if not cam.roller_radius < cam.extremes().min_convex_radius[0]:
             return "undercut"
-        return None if self.forces.greatest_normal().value > 0 else "no force"
+        return None if self.forces.max_normal().value > 0 else "no force"
 
     @cached_property
     def stress(self) -> ContactStress:
@@ -93,14 +93,14 @@ class StressDesign:
         return ContactStress(self.forces, self.material())
 
     @cached_property
-    def greatest(self) -> ValueAt | None:
+    def max_pressure(self) -> ValueAt | None:
         """The greatest peak pressure [MPa]."""
-        return None if self.without else self.stress.greatest()
+        return None if self.without else self.stress.max_pressure()
 
     @cached_property
     def contact(self) -> Stresses | None:
         """The contact where the stress is greatest."""
-        return self.stress.contact_at(self.greatest) if self.greatest else None
+        return self.stress.contact_at(self.max_pressure) if self.max_pressure else None
 
     @property
     def permitted(self) -> bool | None:
@@ -108,13 +108,13 @@ class StressDesign:
         limit = self.material.permitted_stress
         if limit is None or self.without == "no force":
             return None
-        return self.greatest is not None and self.greatest.value <= limit
+        return self.max_pressure is not None and self.max_pressure.value <= limit
 
     @cached_property
-    def least_width(self) -> float | None:
+    def min_width(self) -> float | None:
         """The width of the contact [mm] at which the greatest stress is the permitted one."""
         limit = self.material.permitted_stress
-        return None if limit is None or self.greatest is None else self.stress.least_width(limit)
+        return None if limit is None or self.max_pressure is None else self.stress.min_width(limit)
 
     @property
     def shape(self) -> Literal["convex", "concave", "flat"]:
@@ -130,7 +130,7 @@ class StressDesign:
         """What is to be warned of: a stress that is not permitted."""
         if self.permitted is not False:
             return
-        if self.greatest is None:
+        if self.max_pressure is None:
             said = say("No contact stress is permitted: {why}.", why=NO_STRESS_REASONS[str(self.without)])
             if self.without == "undercut":
                 said = beside_rows(self.forces.cam.motion, said, profile_speed(self.forces.cam))
@@ -139,15 +139,15 @@ class StressDesign:
         said = say(
             "The contact stress reaches {stress:.4g} MPa at {phi}; {limit:g} MPa are permitted. Widen the contact to "
             "{width:.2f} mm, or enlarge {sizes}.",
-            stress=self.greatest.value,
-            phi=degrees(self.greatest.phi),
+            stress=self.max_pressure.value,
+            phi=degrees(self.max_pressure.phi),
             limit=self.material.permitted_stress,
-            width=rounded_up(self.least_width or 0.0),
+            width=rounded_up(self.min_width or 0.0),
             sizes=ENLARGED_SIZES[self.forces.cam.kinematics.takes_roller],
         )
         limit = self.material.permitted_stress or math.inf
         said = beside_rows(self.forces.cam.motion, said, lambda places: limit**2 - self.stress.squared_pressure(places))
-        yield Caution(said, "contact stress", (self.greatest.phi,))
+        yield Caution(said, "contact stress", (self.max_pressure.phi,))
 
     @property
     def drawn(self) -> dict[str, Construction]:
@@ -156,7 +156,7 @@ class StressDesign:
 
     @cached_property
     def _construction(self) -> Construction | None:
-        if self.greatest is None:
+        if self.max_pressure is None:
             return None
         limit, curve = self.material.permitted_stress, self.stress.curve()
         diagram = TurnDiagram(
@@ -169,7 +169,7 @@ class StressDesign:
             curve,
             self._caption,
             why=say("Surfaces suffer pitting where they are pressed too hard too often."),
-            marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
+            marked=((self.max_pressure, with_unit(self.max_pressure.value, "MPa")),),
             limit=None if limit is None or self._is_limit_far else (limit, with_unit(limit, "MPa")),
             wrong=() if limit is None else tuple(_stretches_above(curve, limit)),
         )
@@ -179,7 +179,9 @@ class StressDesign:
     def _is_limit_far(self) -> bool:
         """Whether the permitted stress lies far above the greatest."""
         limit = self.material.permitted_stress
-        return limit is not None and self.greatest is not None and limit > FAR_LIMIT_FACTOR * self.greatest.value
+        return (
+            limit is not None and self.max_pressure is not None and limit > FAR_LIMIT_FACTOR * self.max_pressure.value
+        )
 
     @property
     def _caption(self) -> Caption:
@@ -194,14 +196,14 @@ class StressDesign:
 
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: MPa, N, mm and degrees."""
-        limit, width = self.material.permitted_stress, self.least_width
+        limit, width = self.material.permitted_stress, self.min_width
         found: dict[str, Any] = {
             "greatest": None,
             "without": self.without,
             "permitted": limit and {"value": limit, "unit": "MPa", "kept": self.permitted},
             "least_width": width and {"value": width, "unit": "mm"},
         }
-        if self.greatest is None or (at := self.contact) is None:
+        if self.max_pressure is None or (at := self.contact) is None:
             return found
         there = {
             "normal_force": {"value": float(at.force), "unit": "N"},
@@ -210,7 +212,7 @@ class StressDesign:
         }
         curve = self.stress.curve(PLAIN_POINTS)
         over_turn = {"phi_deg": np.degrees(curve.phi).tolist(), "peak_pressure": curve.values.tolist()}
-        return found | {"greatest": {**plain_place(self.greatest, "MPa"), **there}, "over_turn": over_turn}
+        return found | {"greatest": {**plain_place(self.max_pressure, "MPa"), **there}, "over_turn": over_turn}
 
     def table(self) -> Table:
         """The contact and its results for the sheet."""
@@ -224,13 +226,13 @@ class StressDesign:
         return Table(say("Contact stress"), (say("quantity"), say("value"), ""), rows, found)
 
     def _results(self) -> Iterator[Row]:
-        if self.greatest is None or (at := self.contact) is None:
+        if self.max_pressure is None or (at := self.contact) is None:
             yield say("maximum stress"), say("none"), NO_STRESS_REASONS[str(self.without)]
             return
         yield (
             say("maximum stress"),
-            with_unit(self.greatest.value, "MPa"),
-            at_side(self.greatest, self.forces.cam.motion),
+            with_unit(self.max_pressure.value, "MPa"),
+            at_side(self.max_pressure, self.forces.cam.motion),
         )
         yield say("normal force there"), with_unit(float(at.force), "N"), ""
         radius = "∞" if self.shape == "flat" else with_unit(abs(float(at.profile_radius)), "mm")
@@ -243,8 +245,8 @@ class StressDesign:
         if limit is not None:
             verdicts: dict[bool | None, Words] = {True: say_in("a stress", "kept"), False: say("exceeded"), None: ""}
             yield say("permitted stress"), with_unit(limit, "MPa"), verdicts[self.permitted]
-        if self.least_width is not None:
-            yield say("minimum width for it"), with_unit(self.least_width, "mm"), ""
+        if self.min_width is not None:
+            yield say("minimum width for it"), with_unit(self.min_width, "mm"), ""
 
 
 def rounded_up(width: float) -> float:

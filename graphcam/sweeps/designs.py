@@ -1,5 +1,8 @@
 """Many cams of one kind: rise, dwell, return and dwell, with every size a number or one for each cam."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, Self
@@ -8,13 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest_word_remedy
-from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, Kind, swing_remedy
-from graphcam.given.laws import LAWS, Floats, canonical_law
+from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, Kind, Rotation, swing_remedy
+from graphcam.given.laws import LAWS, Floats, LawName, canonical_law
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
 from graphcam.words import and_chain, bare_caption, say
 
+Size = float | Sequence[float] | NDArray[Any]
+"""A size of all designs, or one for each."""
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 _COMMON_SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
 _FOLLOWER_SIZES = "offset", "arm", "distance", "face_offset", "roller_radius"
@@ -57,20 +62,20 @@ class Designs:
     (3, 50.0)
     """
 
-    lift: Any
-    rise_angle: Any
-    return_angle: Any
-    prime_radius: Any
-    dwell_angle: Any = 0.0
-    offset: Any = 0.0
-    arm: Any = 0.0
-    distance: Any = 0.0
-    roller_radius: Any = 0.0
-    rise_law: Any = "3-4-5"
-    return_law: Any = "3-4-5"
-    rotation: Any = "ccw"
+    lift: Size
+    rise_angle: Size
+    return_angle: Size
+    prime_radius: Size
+    dwell_angle: Size = 0.0
+    offset: Size = 0.0
+    arm: Size = 0.0
+    distance: Size = 0.0
+    roller_radius: Size = 0.0
+    rise_law: LawName | Law | Sequence[LawName | Law] | NDArray[Any] = "3-4-5"
+    return_law: LawName | Law | Sequence[LawName | Law] | NDArray[Any] = "3-4-5"
+    rotation: Rotation | Sequence[Rotation] | NDArray[Any] = "ccw"
     follower: Kind = "translating"
-    face_offset: Any = 0.0
+    face_offset: Size = 0.0
 
     def __post_init__(self) -> None:
         for name in SIZE_NAMES:
@@ -100,6 +105,11 @@ class Designs:
     def _columns(self) -> dict[str, NDArray[Any]]:
         """The fields that may differ from cam to cam."""
         return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "follower"}
+
+    @property
+    def varied(self) -> dict[str, NDArray[Any]]:
+        """The columns (n,) in which the cams differ, by the names of the fields."""
+        return {name: column for name, column in self._columns.items() if column.ndim}
 
     def __len__(self) -> int:
         return max(array.size for array in self._columns.values())

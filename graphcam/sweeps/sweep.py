@@ -1,5 +1,7 @@
 """The sweep: quantities of many designs, in chunks that stay in the cache, on as many processors as there are."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -15,8 +17,16 @@ from graphcam.given.making_errors import MakingErrors
 from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.motion_bands import COVERAGE
 from graphcam.sweeps.designs import Designs
-from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, SweptLoad
-from graphcam.sweeps.sweep_quantities import BAND_QUANTITIES, QUANTITIES, Chunk, SweptErrors
+from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, QuantityUnderLoad, SweptLoad
+from graphcam.sweeps.sweep_quantities import (
+    BAND_QUANTITIES,
+    QUANTITIES,
+    Chunk,
+    Quantity,
+    QuantityOfErrors,
+    SweptErrors,
+)
+from graphcam.sweeps.swept import Swept
 from graphcam.words import say
 from graphcam.workers import ordered_results
 
@@ -32,11 +42,12 @@ WORKING_SET = 2**22
 # keep it asks the system for again at once, which would cost more than all arithmetic.
 np.empty(WORKING_SET, dtype=np.uint8)
 Columns = dict[str, NDArray[Any]]
+AnyQuantity = Quantity | QuantityUnderLoad | QuantityOfErrors
 
 
 def sweep(
     designs: Designs,
-    quantities: str | Sequence[str] = QUANTITIES,
+    quantities: AnyQuantity | Sequence[AnyQuantity] = QUANTITIES,
     executor: Executor | None = None,
     *,
     limits: Limits | None = None,
@@ -45,12 +56,12 @@ def sweep(
     errors: MakingErrors | None = None,
     coverage: float = COVERAGE,
     chunk: int = CHUNK_OF_DESIGNS,
-) -> Columns:
+) -> Swept:
     """Extremes and feasibility of many cams.
 
     Parameters
     ----------
-    designs : n cams
+    designs : n cams; those of every combination of sizes are :func:`graphcam.grid`
     quantities : the quantities to compute, from this list, or one of them
 
         - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of maximum magnitude
@@ -74,9 +85,10 @@ def sweep(
 
     Returns
     -------
-    dict : by name (n,), float64 (bool for feasible); NaN (False) where there can be no cam: an offset as large as the
-        prime radius, an arm that does not reach, phases longer than the turn; forces are NaN where the follower jams.
-        The results are the same to the last bit for every ``chunk`` and executor
+    Swept : a dict, by name (n,), float64 (bool for feasible); NaN (False) where there can be no cam: an offset as large
+        as the prime radius, an arm that does not reach, phases longer than the turn; forces are NaN where it jams.
+        The results are the same to the last bit for every ``chunk`` and executor.  Its ``array`` is one structured
+        array with the sizes that differ, its ``frame()`` a DataFrame of pandas
 
     Raises
     ------
@@ -127,14 +139,14 @@ def sweep(
     if made:
         made.check(first.all_kinematics, designs.roller_radius)
     if executor is None:
-        return compute(designs)
+        return Swept(compute(designs), designs)
     out, size = _empty_columns(wanted, len(designs)), CHUNKS_PER_JOB * chunk
     starts = range(0, len(designs), size)
     jobs = (designs.part(slice(k, k + size)) for k in starts)
     for k, columns in zip(starts, ordered_results(executor, compute, jobs, JOBS_AHEAD), strict=True):
         for name, column in columns.items():
             out[name][k : k + size] = column
-    return out
+    return Swept(out, designs)
 
 
 def usual_limit(follower: str) -> float:

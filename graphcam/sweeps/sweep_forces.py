@@ -1,7 +1,7 @@
 """The forces of many cams under one load: greatest and least normal force, torque, least preload, jamming."""
 
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any, Literal, Self, get_args
 
 import numpy as np
 
@@ -168,6 +168,7 @@ class Rubbing(SoughtForce):
         return self.reading(values), self.kin.leaning * pair_cross(q, q1) * left
 
 
+QuantityUnderLoad = Literal["max_normal_force", "min_normal_force", "max_torque", "least_preload", "jamming_margin"]
 SOUGHT_FORCES: dict[str, tuple[type[SoughtForce], int]] = {
     "max_normal_force": (GreatestNormal, 1),
     "min_normal_force": (LeastNormal, -1),
@@ -176,5 +177,5 @@ SOUGHT_FORCES: dict[str, tuple[type[SoughtForce], int]] = {
     "jamming_margin": (Jamming, -1),
 }
 """What is sought for each of :data:`FORCE_QUANTITIES`, and the sign with which its greatest value is the quantity."""
-FORCE_QUANTITIES = tuple(SOUGHT_FORCES)
+FORCE_QUANTITIES: tuple[QuantityUnderLoad, ...] = get_args(QuantityUnderLoad)
 """What a sweep can find under a load."""

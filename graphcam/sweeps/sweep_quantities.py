@@ -4,14 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, Self
+from typing import Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Limits
-from graphcam.given.laws import Floats, law, law_of_return
+from graphcam.given.laws import Floats, LawName, law, law_of_return
 from graphcam.given.making_errors import MakingErrors, deviations_within
 from graphcam.given.motion_law import Law
 from graphcam.given.spring_load import PlacedArmLoad
@@ -23,16 +23,17 @@ from graphcam.sweeps.sweep_forces import SOUGHT_FORCES, Rubbing, SoughtForce, Sw
 from graphcam.sweeps.sweep_maxima import Legs, Numbers, SoughtQuantity, leg_maxima
 from graphcam.words import say
 
-QUANTITIES = (
-    *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
-    *("max_v", "max_a", "feasible"),
-)
+Quantity = Literal[
+    "max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius", "max_v", "max_a", "feasible"
+]
+QuantityOfErrors = Literal["position_band"]
+QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
 
 JAMMING_QUANTITIES = "max_normal_force", "min_normal_force", "max_torque"
 """What does not exist where the follower jams."""
 
 
-BAND_QUANTITIES = ("position_band",)
+BAND_QUANTITIES: tuple[QuantityOfErrors, ...] = get_args(QuantityOfErrors)
 
 
 @dataclass(frozen=True)
@@ -262,7 +263,8 @@ class Chunk:
     @cached_property
     def _laws(self) -> dict[str, list[tuple[Law, Numbers | slice]]]:
         """The laws of rises and returns that occur, as seen from the low end, and whose they are."""
-        rises, returns = _by_law(self.designs.rise_law, law), _by_law(self.designs.return_law, law_of_return)
+        up, down = (np.asarray(laws) for laws in (self.designs.rise_law, self.designs.return_law))
+        rises, returns = _by_law(up, law), _by_law(down, law_of_return)
         return {"rise_law": rises, "return_law": [(each.reversed, which) for each, which in returns]}
 
     def _peak(self, coefficient: Callable[[Law], float], power: int) -> Floats:
@@ -277,7 +279,7 @@ class Chunk:
         return peaks
 
 
-def _by_law(laws: NDArray[Any], named: Callable[[str | Law], Law]) -> list[tuple[Law, Numbers | slice]]:
+def _by_law(laws: NDArray[Any], named: Callable[[LawName | Law], Law]) -> list[tuple[Law, Numbers | slice]]:
     """The laws, and which of the designs follow each."""
     if laws.ndim == 0:
         return [(named(laws.item()), slice(None))]

@@ -293,7 +293,7 @@ def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, list | tuple):
-            return faults.append(WrongType(place, say("a list")))
+            return faults.append(WrongType(place, say("a list of {readers}", readers=len(readers))))
         items = cast(list[Any], said)
         if len(items) > len(readers):
             return faults.append(WrongType(place, say("a list of {readers}", readers=len(readers))))

@@ -32,7 +32,7 @@ class MaterialTable:
     DesignError : a value that cannot be
 
     >>> MaterialTable(width=15)()
-    RollerContact(width=15, young1=206000.0, young2=206000.0, poisson1=0.3, poisson2=0.3)
+    RollerContact(width=15, young_cam=206000.0, young_follower=206000.0, poisson_cam=0.3, poisson_follower=0.3)
     """
 
     width: Annotated[Size, say("Width of the contact"), About(15.0)]

@@ -193,7 +193,7 @@ class _MovingTable:
 
     def __call__(self, unit: float = 1.0) -> Rise | Return:
         """The phase in radians, its lift times ``unit`` (radians per degree for an arm, else 1)."""
-        law = constant_velocity_law(*self.blends) if self.blends else self.law
+        law = constant_velocity_law(*self.blends) if self.blends else canonical_law(self.law)
         return self.moves(self.lift * unit, math.radians(self.angle), law, self.ratio)
 
 
@@ -311,6 +311,8 @@ class MotionTable:
             if value is not None and (self.table is None or self.gives_cam):
                 raise DesignError(name, value, say("left out where there is no table"), say("delete it"))
         if self.phases is not None:
+            if not self.phases:
+                raise DesignError("phases", say("an empty list"), say("a list with a rise and a return"))
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ROUNDED_CLOSURE:
                 raise DesignError(say("sum of the phase angles"), turn, say("360 degrees"), _remedy(turn, self.phases))

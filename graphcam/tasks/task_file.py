@@ -21,6 +21,7 @@ from graphcam.errors import (
     TaskError,
     TaskFaultsError,
     all_faults,
+    check_kind,
     choice_limit,
     unreadable_error,
 )
@@ -133,6 +134,7 @@ def load_task(path: str | Path) -> Task | ArcsTask:
     >>> task.motion().lift, task.rotation
     (30.0, 'ccw')
     """
+    check_kind("path", path, (str, Path))
     return _parse(str(path), read_content(path), Path(path).parent)
 
 

@@ -143,10 +143,25 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[
     if place is None or (place[1] is None and not text.strip()):
         return 1, TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example), ""
     lines = text.split("\n")
+    if (opened := _open_list(lines, int(place[1]))) if place[1] else 0:
+        told = (
+            say("line {number}: the list", number=opened),
+            say("open"),
+            say("closed by ]"),
+            say("write ] behind its end"),
+        )
+        return (
+            opened,
+            TaskError(path, *told),
+            "\n".join([*lines[: int(place[1]) - 1], "]", *lines[int(place[1]) - 1 :]]),
+        )
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
     where = say("line {number}", number=number)
-    told = next(filter(None, (find(line, where) for find in (_typography, _comma, _value, _colon))), None)
+    told = next(
+        filter(None, (find(line, where) for find in _LINE_FAULTS)),
+        None,
+    )
     if told is not None:
         mended = "\n".join([*lines[: number - 1], told[1], *lines[number:]])
         return number, TaskError(path, *told[0]), mended
@@ -167,6 +182,58 @@ LineFault = tuple[tuple[Words, Words, Words, Words], str]
 """The fault of a line: quantity, value, what it must be, and the remedy; and the line with that mended."""
 _TWICE_PATTERN = re.compile(r"Cannot declare \(.*\) twice|Cannot overwrite a value|Duplicate inline table key '(.+)'")
 """What the parser says of a key or a table that is there already."""
+
+
+_TABLE_PATTERN = re.compile(r"\s*\[\[?[\w.]+\]\]?\s*")
+_COMMENT_PATTERN = re.compile(r"(?:^|\s)(//|--|%)\s*(.*)$")
+_KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=")
+_OPEN_TEXT_PATTERN = re.compile(r'"([^\s",}]+)(?=\s*[,}]|\s*$)')
+
+
+def _open_list(lines: list[str], number: int) -> int:
+    """The line of the list that is still open where a table begins; 0 if there is none."""
+    if not _TABLE_PATTERN.fullmatch(lines[number - 1]):
+        return 0
+    open_lists = list[int]()
+    for k, line in enumerate(lines[: number - 1], 1):
+        for bracket in re.findall(r"[\[\]]", _STRING_OR_COMMENT_PATTERN.sub("", line)):
+            open_lists = [*open_lists, k] if bracket == "[" else open_lists[:-1]
+    return open_lists[-1] if open_lists else 0
+
+
+def _comment(line: str, place: Words) -> LineFault | None:
+    """The fault of a comment as other languages write it."""
+    found = _COMMENT_PATTERN.search(_STRING_OR_COMMENT_PATTERN.sub(lambda text: "_" * len(text[0]), line))
+    if not found:
+        return None
+    mended = f"{line[: found.start(1)]}# {found[2]}"
+    told = say("{place}: the comment", place=place), bare_caption(line[found.start(1) :])
+    return (*told, say("begun with #"), say("write {word}", word=f"# {found[2]}")), mended
+
+
+def _key(line: str, place: Words) -> LineFault | None:
+    """The fault of a key in letters that are not Latin."""
+    for found in _KEY_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub(lambda text: "_" * len(text[0]), line)):
+        if not found[1].isascii():
+            meant = (*names_of(found[1], "keys"), "")[0]
+            told = say("{place}: the key", place=place), bare_caption(found[1]), say("in Latin letters")
+            remedy = (
+                say("did you mean '{close}'?", close=meant) if meant else say("'graphcam init FILE' names the keys")
+            )
+            return (*told, remedy), line[: found.start(1)] + (meant or f'"{found[1]}"') + line[found.end(1) :]
+    return None
+
+
+def _quotes(line: str, place: Words) -> LineFault | None:
+    """The fault of a text that is not closed."""
+    closed = _STRING_OR_COMMENT_PATTERN.sub("", line)
+    if line.partition("#")[0].count('"') % 2 == 0 or not (found := _OPEN_TEXT_PATTERN.search(line)):
+        return None
+    if not closed or line.count('"""'):
+        return None
+    mended = f'{line[: found.end(1)]}"{line[found.end(1) :]}'
+    told = say("{place}: the text", place=place), bare_caption(f'"{found[1]}'), say("closed by a quotation mark")
+    return (*told, say("write {word}", word=f'"{found[1]}"')), mended
 
 
 def _typography(line: str, place: Words) -> LineFault | None:
@@ -262,9 +329,28 @@ def _value(line: str, place: Words) -> LineFault | None:
         if number and (number[2] in UNITS or not any(number[2] in units for units in UNITS.values())):
             written = say("write {word}", word=number[1])
             return fault(say("the number"), say("written without its unit"), written, number[1])
+        if worked := _worked_out(word):
+            return fault(say("the number"), say("worked out"), say("write {word}", word=worked), worked)
         if "'" not in word and '"' not in word:
             return fault(say("the text"), say("in quotes"), say('write "{word}"', word=word), f'"{word}"')
     return None
+
+
+_LINE_FAULTS = _typography, _comment, _key, _quotes, _comma, _value, _colon
+"""What finds the fault of a line, in this order."""
+
+
+def _worked_out(word: str) -> str:
+    """The value of two numbers with a sign between them; empty of anything else.
+
+    >>> _worked_out("160/2"), _worked_out("25.4 * 2"), _worked_out("a3")
+    ('80', '50.8', '')
+    """
+    found = re.fullmatch(r"(\d+\.?\d*)\s*([-+*/])\s*(\d+\.?\d*)", word)
+    if not found or (found[2] == "/" and not float(found[3])):
+        return ""
+    one, two = float(found[1]), float(found[3])
+    return f"{ {'+': one + two, '-': one - two, '*': one * two, '/': one / (two or 1)}[found[2]]:.12g}"
 
 
 def _is_value(word: str) -> bool:

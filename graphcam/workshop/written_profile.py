@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from graphcam.errors import DesignError, check_kind, nearest_word_remedy, suggestion
 from graphcam.files import whole_folder
@@ -18,7 +18,8 @@ from graphcam.workshop.cam_part import cam_part
 from graphcam.workshop.part_outline import of_cam
 from graphcam.workshop.plane_loops import spline_loop
 
-FILE_KINDS = "csv", "dxf", "xyz", "step", "gcode"
+FileKind = Literal["csv", "dxf", "xyz", "step", "gcode"]
+FILE_KINDS: tuple[FileKind, ...] = get_args(FileKind)
 CURVE_KINDS = "csv", "dxf", "xyz"
 """The kinds that show the profile as a curve alone."""
 SPLINE_KINDS = "dxf", "step"
@@ -28,7 +29,7 @@ SPLINE_KINDS = "dxf", "step"
 def write_profile(
     cam: Cam,
     folder: Path | str,
-    kinds: str | Collection[str] = ("csv", "dxf"),
+    kinds: FileKind | Collection[FileKind] = ("csv", "dxf"),
     *,
     name: str = "Cam",
     groove: bool = False,

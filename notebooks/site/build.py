@@ -7,11 +7,15 @@ are laid together in a temporary folder; Sphinx makes the site of it, and a warn
 from __future__ import annotations
 
 import argparse
+import inspect
 import re
+import runpy
 import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterable
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -60,6 +64,28 @@ GROUPS = {
     "errors": ("Errors", ("errors",)),
 }
 """The pages of the reference: title, and the rooms whose public names stand there."""
+SUBJECTS = {
+    "Laws and motions": "LAWS law Law Rise Dwell Return Motion cam_angle DegreesWarning",
+    "Laws and motions of your own": "boundary_law boundary_motion BoundaryMotion MotionPoint PolynomialPart SplinePart "
+    "constant_velocity_law sampled_law",
+    "Measured motions and given cams": "measured_motion MeasuredMotion integrated_motion IntegratedMotion cam_by_radii "
+    "ArcOutline cam_through_points PointOutline outline_motion OutlineMotion TracedMotion three_arc_cam ThreeArcCam ArcMotion",
+    "Followers and the cam": "Translating Oscillating FlatFaced OscillatingFlat Cam Undercut largest_roller face_width "
+    "FaceWidth face_reach FaceReach ConjugateCam circumradius",
+    "Least sizes": "Limits minimum_radius MinimumRadius ArmMinimumRadius FlatMinimumRadius size_cam SizedCam size_task "
+    "Sizing sizing_sheet radius_sensitivity",
+    "Many designs": "Designs grid sweep Swept",
+    "Springs, forces and torque": "SpringLoad ArmLoad ArmSpring LoadCurve Guide spring_preload SpringPreload Contact "
+    "CamForces jamming_margin mean_torque",
+    "Contact stress": "RollerContact ContactStress hertz_line_contact LineContact contact_by_elements ElementContact",
+    "Vibration": "follower_response FollowerResponse shock_spectrum ShockSpectrum FollowerTrain VibratingFollower TrainMotion",
+    "Manufacturing": "MakingErrors Deviations MadeCam sensitivities Sensitivities motion_bands MotionBands profile_spline "
+    "ProfileSpline write_profile",
+    "Tasks and the drawing board": "Task ArcsTask load_task builtin_task builtin_arcs_task solve Solution ArcsSolution "
+    "Construction Step Reading Scale Pencil studio",
+    "Errors": "GraphcamError DesignError TaskError",
+}
+"""The public names by subject."""
 
 
 def stored(path: Path) -> NotebookNode:
@@ -103,6 +129,7 @@ def build(
         if pyodide:
             write_studio(source, out / FOLDER, pyodide)
         write_gallery(source / "gallery", sheets)
+        write_published(source / "gallery")
         write_reference(source / "reference")
         page = hard_cases_page(computed_rows(), drawn_rows())
         (source / "hard-cases.md").write_text(page, encoding="utf-8")
@@ -168,6 +195,11 @@ def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
 
 def write_reference(folder: Path) -> None:
     """A page for each group of public names, so that no name is left out, one of the commands, one of the task file."""
+    if missing := set(gc.__all__) ^ set(" ".join(SUBJECTS.values()).split()):
+        raise SystemExit(f"SUBJECTS and the public names differ: {', '.join(sorted(missing))}")
+    index = folder / "index.md"
+    before, conventions, after = index.read_text(encoding="utf-8").partition("## Conventions")
+    index.write_text(f"{before}{names_by_subject()}\n{conventions}{after}", encoding="utf-8")
     left = set(gc.__all__)
     for page, (title, rooms) in GROUPS.items():
         names = [name for name in gc.__all__ if room_of(name) in rooms]
@@ -178,6 +210,44 @@ def write_reference(folder: Path) -> None:
         raise SystemExit(f"the reference has no page for {', '.join(sorted(left))}: see GROUPS")
     (folder / "commands.md").write_text(commands(), encoding="utf-8")
     (folder / "task-file.md").write_text(task_file_page(), encoding="utf-8")
+
+
+def names_by_subject() -> str:
+    """Tables of all public names by subject, with one sentence each.
+
+    >>> "| {py:obj}`Cam <graphcam.Cam>` | A disk cam that gives the motion to the follower. |" in names_by_subject()
+    True
+    """
+    text = ["## By subject"]
+    for subject, names in SUBJECTS.items():
+        rows = [f"| {{py:obj}}`{name} <graphcam.{name}>` | {first_sentence(name)} |" for name in names.split()]
+        text += [f"### {subject}", "\n".join(["| name | |", "|---|---|", *rows])]
+    return "\n\n".join(text) + "\n"
+
+
+def first_sentence(name: str) -> str:
+    """The first sentence of what a public name is for.
+
+    >>> first_sentence("mean_torque").endswith(".")
+    True
+    """
+    if name == "LAWS":
+        return "The names of all motion laws."
+    told = inspect.getdoc(getattr(gc, name)) or ""
+    sentence = re.split(r"(?<=\.)\s", " ".join(told.split("\n\n")[0].split()))[0].rstrip(".:") + "."
+    return re.sub(r":\w+:`~?([^`]+)`", r"`\1`", sentence).replace("``", "`").replace("|", "\\|")
+
+
+def write_published(folder: Path) -> None:
+    """The page of published examples: each script, and what it prints."""
+    page = [(folder / "published.md").read_text(encoding="utf-8")]
+    for path in sorted((folder / "published").glob("*.py")):
+        script, printed = path.read_text(encoding="utf-8"), StringIO()
+        with redirect_stdout(printed):
+            runpy.run_path(str(path))
+        title = script.splitlines()[0].strip('"')
+        page += [f"## {title}", f"```python\n{script.strip()}\n```", f"```text\n{printed.getvalue().strip()}\n```"]
+    (folder / "published.md").write_text("\n\n".join(page) + "\n", encoding="utf-8")
 
 
 def room_of(name: str) -> str:

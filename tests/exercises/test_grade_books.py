@@ -15,6 +15,7 @@ from issued_variants import answer_lines, course_of, issued, key
 
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.reports.learning_platforms import moodle_grades
+from graphcam.exercises.reports.report_files import wide_table
 
 NAME = "acceleration-and-scales"
 IDS = ("007", "Анна <b>", '=cmd|"x"', "a;=1", 'said "no", left')
@@ -85,3 +86,30 @@ def test_no_id_in_a_grade_book_is_a_formula(reports: Path):
         found = {cell for row in rows(reports, name) for cell in row}
         assert set(GUARDED.values()) <= found
         assert not found & set(GUARDED)
+
+
+@pytest.mark.parametrize(
+    ("roster", "student", "heading"),
+    [
+        ("First name,Last name,ID number,Email address\nИван,Иванов,,0@univ.ru\n", "0@univ.ru", "Email address"),
+        ("First name,Last name,ID number,Email address\nИван,Иванов,17,0@univ.ru\n", "17", "ID number"),
+        ("Имя,Фамилия,Индивидуальный номер,Адрес электронной почты\nИван,Иванов,17,\n", "17", "Индивидуальный номер"),
+        (
+            "Имя,Фамилия,Индивидуальный номер,Адрес электронной почты\nИван,Иванов,,0@univ.ru\n",
+            "0@univ.ru",
+            "Адрес электронной почты",
+        ),
+    ],
+)
+def test_moodle_is_told_the_column_that_the_ids_are_from(tmp_path: Path, roster: str, student: str, heading: str):
+    place = course_of(tmp_path, NAME, {student: ""})
+    (place / "roster.csv").write_text(roster, encoding="utf-8")
+    grade_course(Course(place, place / "secret", place / "grades.csv", exercise=NAME, roster=place / "roster.csv"))
+    head, row = rows(place, "grades-moodle.csv")
+    assert (head[0], row[0]) == (heading, student)
+
+
+def test_notes_of_the_table_are_joined_as_a_list(reports: Path):
+    record = json.loads((reports / "grades.json").read_text())[0] | {"notes": ["late", "no photograph"]}
+    head, row = csv.reader(io.StringIO(wide_table([record], {})))
+    assert row[head.index("notes")] == "late; no photograph"

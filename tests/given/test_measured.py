@@ -63,7 +63,7 @@ def test_a_table_of_a_law_gives_the_cam_of_the_law(law):
     kinds = [phase.kind for phase in measured.phases]
     assert kinds[kinds[0] == "dwell" :] == [phase.kind for phase in exact.phases]
     assert measured.zero == 0
-    assert measured.greatest_residual <= measured.tolerance
+    assert measured.max_residual <= measured.tolerance
 
 
 @over_all("law", LAWS)
@@ -285,7 +285,7 @@ def test_the_tolerance_that_a_message_names_is_enough(noise, step):
     with pytest.raises(DesignError, match=r"give a greater tolerance, as (?P<enough>[\d.e-]+),") as caught:
         measured_motion(phi, rows, noise / 5)
     enough = float(str(caught.value).partition("tolerance, as ")[2].partition(",")[0])
-    assert measured_motion(phi, rows, enough).greatest_residual <= enough
+    assert measured_motion(phi, rows, enough).max_residual <= enough
 
 
 @over_all("row", [1, 2, 3])
@@ -294,7 +294,7 @@ def test_a_row_that_lies_too_low_at_the_foot_of_a_rise_is_no_rest(row):
     rows[row] = 0.0
     motion = measured_motion(DEGREES, rows)
     assert [phase.kind for phase in motion.phases if phase.kind != "dwell"] == ["rise", "return"]
-    assert motion.greatest_residual <= motion.tolerance
+    assert motion.max_residual <= motion.tolerance
 
 
 @over_all("size", [1e-90, 1e-30, 1e6, 1e90])

@@ -73,7 +73,7 @@ def test_a_table_of_any_noise_and_tolerance_gives_a_motion_or_a_message(seed):
         measured = measured_motion(phi, s, tolerance)
     except DesignError:
         return
-    assert measured.greatest_residual <= tolerance
+    assert measured.max_residual <= tolerance
     assert min(phase.angle for phase in measured.phases) >= 0.999 * FULL_TURN / rows
 
 
@@ -92,7 +92,7 @@ def test_round_phases_come_out_round_though_the_tolerance_is_that_of_few_sigmas(
     measured = measured_motion(DEGREES[::5], s, sigmas * 0.009)
     assert [phase.kind for phase in measured.phases] == ["rise", "dwell", "return", "dwell"]
     assert_allclose(np.degrees(measured.angles), [130, 50, 120, 60], atol=5.01)
-    assert measured.greatest_residual <= measured.tolerance
+    assert measured.max_residual <= measured.tolerance
 
 
 @pytest.mark.parametrize("law", fast_first(["3-4-5", "cycloidal", "rectangular"]))
@@ -114,7 +114,7 @@ def test_a_tolerance_below_the_noise_is_told_with_one_that_is_enough(tolerance):
     with pytest.raises(DesignError, match=r"give a greater tolerance, as [\d.e-]+, or a table") as caught:
         measured_motion(DEGREES[::5], s, tolerance)
     enough = float(caught.value.remedy.split(" as ")[1].split(",")[0])
-    assert measured_motion(DEGREES[::5], s, enough).greatest_residual <= enough
+    assert measured_motion(DEGREES[::5], s, enough).max_residual <= enough
 
 
 @pytest.mark.slow
@@ -143,14 +143,14 @@ def test_noise_and_not_a_wide_tolerance_sets_the_smoothing():
     s = MOTION(DEGREES)[0]
     fits = [measured_motion(DEGREES, s, tolerance) for tolerance in (0.1, 0.01, 0.001)]
     for fit in fits:
-        assert fit.greatest_residual <= fit.tolerance / 5
+        assert fit.max_residual <= fit.tolerance / 5
         assert_allclose(fit(DEGREES), fits[0](DEGREES), rtol=1e-9, atol=1e-9)
 
 
 def test_a_row_beyond_the_noise_is_kept_to_the_tolerance_or_refused():
     s = MOTION(DEGREES)[0] + 0.002 * np.random.default_rng(2).standard_normal(360)
     s[40] += 0.01
-    assert measured_motion(DEGREES, s, 0.009).greatest_residual <= 0.009
+    assert measured_motion(DEGREES, s, 0.009).max_residual <= 0.009
     s[40] += 0.1
     with pytest.raises(DesignError, match="as the rows on both sides say"):
         measured_motion(DEGREES, s, 0.009)
@@ -197,7 +197,7 @@ def test_few_rows_are_enough_for_an_eccentric(rows):
     phi = np.arange(rows) * FULL_TURN / rows
     measured = measured_motion(phi, 10 - 10 * np.cos(phi - 0.3), 0.05)
     assert [phase.kind for phase in measured.phases] == ["rise", "return"]
-    assert measured.greatest_residual <= 0.05
+    assert measured.max_residual <= 0.05
 
 
 def test_the_best_linear_estimate_is_that_of_least_squares_for_a_cubic():

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -10,7 +11,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 from over_all import over_all
 from reference import EPS, displacement
 
+import graphcam as gc
 from graphcam.errors import DesignError
+from graphcam.given import motion as motion_module
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise, cam_angle, wrap
 
@@ -235,3 +238,23 @@ def test_closure_is_judged_to_1e_9(miss, closes):
     else:
         with pytest.raises(DesignError, match="sum of the phase angles"):
             motion()
+
+
+@pytest.mark.parametrize("asked", ["motion", "pressure angle", "forces", "stress"])
+def test_degrees_for_radians_are_warned_of_once(asked):
+    motion = gc.Motion([gc.Rise(30, 2.0), gc.Dwell(1.0), gc.Return(30, 2.0), gc.Dwell(2 * np.pi - 5)])
+    cam = gc.Cam(motion, gc.Translating(10, 12), prime_radius=50)
+    forces = gc.CamForces(cam, gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
+    stress = gc.ContactStress(forces, gc.RollerContact(10))
+    ask = {"motion": motion, "pressure angle": cam.pressure_angle, "forces": forces.at, "stress": stress.at}[asked]
+    motion_module._warn_of_degrees.cache_clear()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        for angle in (1, 6, 6.2, 7.5, -0.5, np.array([60.0, 90.0]), gc.cam_angle(60)):
+            ask(angle)
+        assert not told
+        ask(60)
+        ask(90)
+    assert [each.category for each in told] == [gc.DegreesWarning]
+    assert "write gc.cam_angle(60)" in str(told[0].message)
+    assert told[0].filename == __file__

@@ -69,7 +69,7 @@ def test_the_least_radius_is_that_of_the_bent_path(made, at):
     path, step = path_of(cam, at), TURN[1]
     first, bent = (path[2:] - path[:-2]) / (2 * step), (path[2:] - 2 * path[1:-1] + path[:-2]) / step**2
     curvature = -(first.conj() * bent).imag / np.abs(first) ** 3
-    found = gc.ConjugateCam(cam, (at.real, at.imag), 1.0).least_radius
+    found = gc.ConjugateCam(cam, (at.real, at.imag), 1.0).min_convex_radius
     assert found.value == pytest.approx(1 / curvature.max(), rel=2e-4)
 
 

@@ -38,7 +38,7 @@ def test_the_published_preload():
 def test_the_preload_is_needed_before_one_jump_and_after_the_next():
     """At the end of the rise just before the dwell, and again at the start of the return: one-sided limits."""
     contact = Contact(coursework(), SpringLoad(0.2, 550, 3))
-    least = contact.least_force()
+    least = contact.min_force()
     assert (least.phi, least.side) == (45 * DEG, "left")
     for phi, side in ((45 * DEG, "left"), (90 * DEG, "right")):
         assert float(contact.load.force(contact.motion(phi, side))) == pytest.approx(least.value, rel=1e-13)
@@ -61,7 +61,7 @@ def test_no_place_needs_more_than_the_least_preload(seed):
     mass, rpm, stiffness = 10 ** rng.uniform(-1.5, 1), rng.uniform(50, 900), 10 ** rng.uniform(-1, 1.5)
     load = SpringLoad(mass, rpm, stiffness, acceleration=float(rng.choice([0.0, 400.0, -900.0])))
     contact = Contact(motion, load)
-    least, greatest = contact.least_force(), contact.greatest_force()
+    least, greatest = contact.min_force(), contact.max_force()
     phi = np.linspace(0, FULL_TURN, 10001)
     sampled = np.concatenate([load.force(motion(np.append(phi, motion.breaks), side)) for side in ("left", "right")])
     slack = 200 * EPS * load.size(motion(phi)).max()
@@ -125,9 +125,9 @@ def test_a_law_that_jumps_inside_loses_contact_from_the_jump_on():
 def test_friction_loads_the_cam_on_a_rise_and_relieves_it_on_a_return():
     motion = coursework()
     without, with_friction = (Contact(motion, SpringLoad(0.2, 550, 3, friction=f)) for f in (0.0, 5.0))
-    assert with_friction.greatest_force().value == pytest.approx(without.greatest_force().value + 5, rel=1e-13)
-    least = with_friction.least_force()
-    assert least.value == pytest.approx(without.least_force().value - 5, rel=1e-13)
+    assert with_friction.max_force().value == pytest.approx(without.max_force().value + 5, rel=1e-13)
+    least = with_friction.min_force()
+    assert least.value == pytest.approx(without.min_force().value - 5, rel=1e-13)
     assert (least.phi, least.side) == (90 * DEG, "right")
 
 
@@ -138,7 +138,7 @@ def test_the_curve_holds_both_sides_of_every_jump():
     assert curve.phi[[0, -1]] == pytest.approx([0, FULL_TURN])
     twice = curve.phi[1:][np.diff(curve.phi) <= 4 * EPS * FULL_TURN]
     assert twice == pytest.approx(contact.motion.breaks[1:])
-    assert curve.force.min() == pytest.approx(contact.least_force().value, rel=1e-12)
+    assert curve.force.min() == pytest.approx(contact.min_force().value, rel=1e-12)
 
 
 @over_all(

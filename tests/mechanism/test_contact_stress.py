@@ -127,7 +127,7 @@ def stress_of_kind(kind: str, seed: int, friction: float) -> gc.ContactStress:
 def test_no_place_is_stressed_more_than_the_greatest(kind, seed, friction):
     """Of every follower, with friction too, and each of many places by the formulas for one place."""
     stress = stress_of_kind(kind, seed, friction)
-    most, cam = stress.greatest(), stress.forces.cam
+    most, cam = stress.max_pressure(), stress.forces.cam
     phases = np.arange(len(cam.motion.phases))[:, None]
     sides = [stress.at(phases, np.linspace(0, 1, 2001), side) for side in ("left", "right")]
     assert max(at.peak_pressure.max() for at in sides) <= most.value * (1 + 1e-12)
@@ -148,7 +148,7 @@ def test_a_flat_face_on_a_cam_that_it_undercuts_has_no_greatest_stress():
     stress = gc.ContactStress(gc.CamForces(cam, gc.SpringLoad(0.2, 100, 5, 500)), gc.RollerContact(10))
     assert np.isnan(stress.curve().values).any()
     with pytest.raises(gc.DesignError, match=r"prime radius is 30, but must be so large that .* is greater than 0 mm"):
-        stress.greatest()
+        stress.max_pressure()
 
 
 def stress_of(seed: int) -> gc.ContactStress:
@@ -160,7 +160,7 @@ def test_the_curve_is_hertz_at_each_of_its_places(seed):
     stress = stress_of(seed)
     curve = stress.curve()
     assert (curve.phi[0], curve.phi[-1]) == pytest.approx((0, 2 * math.pi))
-    assert np.nanmax(curve.values) <= stress.greatest().value * (1 + 1e-12)
+    assert np.nanmax(curve.values) <= stress.max_pressure().value * (1 + 1e-12)
     breaks = np.append(stress.forces.cam.motion.breaks, 2 * math.pi)
     for phi, found in zip(curve.phi, curve.values, strict=True):
         if np.abs(breaks - phi).min() < 1e-9:
@@ -175,7 +175,7 @@ def test_the_curve_is_hertz_at_each_of_its_places(seed):
 def test_the_contact_where_the_stress_is_greatest(seed):
     """Force, radius and half-width there are those of the formulas for one place."""
     stress = stress_of(seed)
-    most = stress.greatest()
+    most = stress.max_pressure()
     at = stress.contact_at(most)
     roller = stress.forces.cam.roller_radius
     there = gc.hertz_line_contact(float(at.force), 12, float(at.profile_radius), roller)
@@ -192,7 +192,7 @@ def test_the_stress_grows_with_the_root_of_the_force_and_of_the_width():
     cam = steady_cam(2)
     press = lambda force, width: gc.ContactStress(  # noqa: E731
         gc.CamForces(cam, gc.SpringLoad(0, 0, 0, preload=force)), gc.RollerContact(width)
-    ).greatest()
+    ).max_pressure()
     one = press(100, 10)
     assert press(400, 10).value == pytest.approx(2 * one.value, rel=1e-13)
     assert press(100, 5).value == pytest.approx(math.sqrt(2) * one.value, rel=1e-13)
@@ -213,5 +213,5 @@ def test_the_stress_of_the_design_source_is_not_what_its_elements_say():
     normal = 100 / math.cos(math.atan(20 / math.sqrt(95**2 - 20**2)))
     assert at_rest == pytest.approx(gc.hertz_line_contact(normal, 15, 80, 15).peak_pressure, rel=1e-12)
     assert at_rest == pytest.approx(139.5, abs=0.1)
-    assert stress.greatest().value > 20 * 6.4
-    assert stress.least_width(6.4) > 4000
+    assert stress.max_pressure().value > 20 * 6.4
+    assert stress.min_width(6.4) > 4000

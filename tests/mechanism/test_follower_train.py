@@ -116,8 +116,8 @@ def test_as_the_train_grows_stiff_the_force_comes_to_that_of_a_rigid_follower():
     motion = motion_of("4-5-6-7")
     rigid = gc.Contact(motion, gc.SpringLoad(mass=0.5, speed_rpm=450, stiffness=20, preload=200))
     stiff = np.array([1e5, 1e6, 1e7])
-    forces = [gc.VibratingFollower(motion, changed(stiffness=k), 450).greatest_force().value for k in stiff]
-    off = np.abs(np.array(forces) - rigid.greatest_force().value)
+    forces = [gc.VibratingFollower(motion, changed(stiffness=k), 450).max_force().value for k in stiff]
+    off = np.abs(np.array(forces) - rigid.max_force().value)
     assert np.polyfit(np.log(stiff), np.log(off), 1)[0] == pytest.approx(-1, abs=0.02)
     assert off[-1] < 0.01
 
@@ -125,7 +125,7 @@ def test_as_the_train_grows_stiff_the_force_comes_to_that_of_a_rigid_follower():
 def test_at_low_speed_the_force_is_the_spring_s_alone():
     motion = motion_of("cycloidal")
     follower = gc.VibratingFollower(motion, changed(damping=0.5), 3)
-    (least, *_), greatest = follower.least_force(), follower.greatest_force()
+    (least, *_), greatest = follower.min_force(), follower.max_force()
     assert least == pytest.approx(200, abs=0.01)
     # At rest the train and the return spring share the lift as springs in series do.
     assert greatest.value == pytest.approx(200 + 30 / (1 / 2000 + 1 / 20), abs=0.01)
@@ -142,7 +142,7 @@ HEAVY = {"spring": 700.0, "damping": 0.4}
 @over_all(("rpm", "sizes"), [(240, {}), (611, {}), (1403, {}), (1403, HEAVY)])
 def test_no_sample_of_the_force_is_beyond_its_extremes_and_lost_is_where_it_is_negative(law, rpm, sizes):
     follower = gc.VibratingFollower(motion_of(law), changed(preload=120.0, **sizes), rpm)
-    least, greatest, lost = follower.least_force(), follower.greatest_force(), follower.lost()
+    least, greatest, lost = follower.min_force(), follower.max_force(), follower.lost()
     phi = np.linspace(0, FULL_TURN, 20_001)
     force = follower(phi).force
     size = np.abs(force).max()
@@ -165,7 +165,7 @@ def test_the_least_preload_just_keeps_the_follower_on_its_cam(law):
     motion = motion_of(law)
     preload = gc.VibratingFollower(motion, TRAIN, 900).least_preload()
     kept, lost = (gc.VibratingFollower(motion, changed(preload=preload * times), 900) for times in (1.0, 0.99))
-    assert kept.least_force().value == pytest.approx(0, abs=1e-9 * preload)
+    assert kept.min_force().value == pytest.approx(0, abs=1e-9 * preload)
     assert kept.lost() == []
     assert len(lost.lost()) >= 1
     whole = gc.VibratingFollower(motion, changed(preload=-1e6), 900)
@@ -205,7 +205,7 @@ def test_a_cam_of_arcs_and_a_measured_motion_are_followed_too():
         found, (s, v, *_) = follower(phi), motion(phi)
         elastic = TRAIN.stiffness * (s - found.x) + TRAIN.damper * omega_of(300) * (v - found.v)
         np.testing.assert_allclose(found.force, TRAIN.preload + elastic, atol=1e-9 * np.abs(found.force).max())
-        assert follower.least_force().value <= found.force.min()
+        assert follower.min_force().value <= found.force.min()
 
 
 def test_the_ratio_of_a_rise_is_its_time_over_the_natural_period():

@@ -82,7 +82,7 @@ def test_forces_are_told_at_cam_angles_as_at_fractions_of_phases(side):
 @over_all("seed", range(10))
 def test_dense_sampling_never_exceeds_the_greatest_normal_force(seed, guide):
     forces = gc.CamForces(steady_cam(seed), load(seed), guide)
-    greatest = forces.greatest_normal()
+    greatest = forces.max_normal()
     phases = np.arange(len(forces.cam.motion.phases))[:, None]
     sampled = np.concatenate([forces.at(phases, np.linspace(0, 1, 4001), side).normal for side in ("left", "right")])
     assert sampled.max() <= greatest.value * (1 + 1e-13)
@@ -122,7 +122,7 @@ def test_the_efficiency_falls_to_zero_at_the_jamming_angle():
     motion = gc.Motion([gc.Rise(30, 60 * DEG), gc.Return(30, 100 * DEG), gc.Dwell(200 * DEG)])
     spring = gc.SpringLoad(mass=0.2, speed_rpm=60, stiffness=2, preload=100)
     loose = gc.CamForces(gc.Cam(motion, gc.Translating(0, 5), 40), spring, gc.Guide(0.1, 40, 60))
-    efficiency, phi, _ = loose.least_efficiency()
+    efficiency, phi, _ = loose.min_efficiency()
     at = loose.at(0, np.linspace(0, 1, 5001))
     assert at.efficiency.min() == pytest.approx(efficiency, abs=1e-6)
     assert efficiency <= at.efficiency.min() + 1e-14
@@ -133,7 +133,7 @@ def test_the_efficiency_falls_to_zero_at_the_jamming_angle():
 
     steep = gc.CamForces(gc.Cam(motion, gc.Translating(0, 5), 18), spring, gc.Guide(0.5, 40, 60))
     with pytest.raises(gc.DesignError, match=r"pressure angle is .* degrees at which the guide jams"):
-        steep.greatest_normal()
+        steep.max_normal()
     jammed = steep.at(0, np.linspace(0, 1, 101))
     assert np.isnan(jammed.normal).any()
     assert jammed.efficiency.min() == 0

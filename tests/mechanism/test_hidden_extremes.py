@@ -51,23 +51,23 @@ def quantities(motion: Motion):
     kin, forces = cam.kinematics, gc.CamForces(cam, LOAD, friction=0.05)
     guided = gc.CamForces(cam, LOAD, gc.Guide(friction=0.1, overhang=70, length=80), friction=0.05)
     stress, contact = gc.ContactStress(forces, gc.RollerContact(width=15)), gc.Contact(motion, LOAD)
-    extremes, preload = cam.extremes(), gc.least_preload(cam, LOAD).preload
+    extremes, preload = cam.extremes(), gc.spring_preload(cam, LOAD).preload
     steepest = max(abs(extremes.pressure_angle_rise[0]), abs(extremes.pressure_angle_return[0]))
     flat = gc.minimum_radius(motion, gc.FlatFaced(), curvature=8.0).prime_radius
     yield "pressure angle", steepest, lambda at: np.abs(np.arctan(kin.steepness(at.values)))
     yield "curvature", 1 / extremes.min_convex_radius[0], lambda at: kin.curvature(at.values)
     yield "largest roller", 1 / gc.largest_roller(cam), lambda at: np.maximum(kin.curvature(at.values), 1 / 60)
-    yield "normal force", forces.greatest_normal().value, forces.normal
-    yield "least normal force", -forces.least_normal().value, lambda at: -forces.normal(at)
-    yield "torque", forces.greatest_torque().value, forces.torque
-    yield "normal force in a guide", guided.greatest_normal().value, guided.normal
+    yield "normal force", forces.max_normal().value, forces.normal
+    yield "least normal force", -forces.min_normal().value, lambda at: -forces.normal(at)
+    yield "torque", forces.max_torque().value, forces.torque
+    yield "normal force in a guide", guided.max_normal().value, guided.normal
     yield (
         "jamming",
         -gc.jamming_margin(cam, 0.2).value,
         lambda at: -rubbing.of(at).transmission,
     )
-    yield "stress", stress.greatest().value, lambda at: stress.of(at).peak_pressure
-    yield "contact", contact.greatest_force().value, contact.force
+    yield "stress", stress.max_pressure().value, lambda at: stress.of(at).peak_pressure
+    yield "contact", contact.max_force().value, contact.force
     yield "preload", preload, lambda at: LOAD.preload - contact.force(at)
     yield "flat face", flat, lambda at: 8 - at.values[0] - at.values[2]
     yield "velocity", max_velocity(motion), lambda at: np.abs(at.values[1])
@@ -115,7 +115,7 @@ def test_of_equal_maxima_the_first_is_told(name):
     forces, extremes = gc.CamForces(cam, LOAD, friction=0.05), cam.extremes()
     for phi in (
         extremes.pressure_angle_rise[1], extremes.pressure_angle_return[1], extremes.min_convex_radius_moving[1],
-        forces.greatest_normal().phi, forces.greatest_torque().phi, gc.jamming_margin(cam, 0.1).phi,
-        gc.Contact(cam.motion, LOAD).least_force().phi,
+        forces.max_normal().phi, forces.max_torque().phi, gc.jamming_margin(cam, 0.1).phi,
+        gc.Contact(cam.motion, LOAD).min_force().phi,
     ):  # fmt: skip
         assert phi < math.pi - 1e-9

@@ -185,10 +185,10 @@ def test_the_forces_balance_about_pivot_and_shaft(rotation, offset, friction):
 
 def test_a_sound_spring_keeps_the_face_on_its_cam():
     quick = gc.ArmLoad(inertia=9000, speed_rpm=500, stiffness=3000)
-    least = gc.least_preload(sound_cam(), quick)
+    least = gc.spring_preload(sound_cam(), quick)
     assert least.preload > 0
     kept = gc.ArmLoad(inertia=9000, speed_rpm=500, stiffness=3000, preload=least.preload)
-    assert gc.CamForces(sound_cam(), kept).least_normal().value == pytest.approx(0, abs=1e-6)
+    assert gc.CamForces(sound_cam(), kept).min_normal().value == pytest.approx(0, abs=1e-6)
 
 
 def test_loads_of_other_followers_are_refused():

@@ -44,8 +44,8 @@ WRONG = {
     "forces is of the kind Cam, but must be a CamForces": lambda: gc.ContactStress(CAM, CONTACT),
     "contact is of the kind int, but must be a RollerContact": lambda: gc.ContactStress(FORCES, 10),
     "task is of the kind Cam, but must be a Task or ArcsTask": lambda: gc.solve(CAM),
-    "motion is of the kind Cam, but must be a Motion; of a cam": lambda: gc.spring_preload(CAM, 0.8, 600, 5),
-    "cam is of the kind Motion, but must be a Cam$": lambda: gc.least_preload(MOTION, LOAD),
+    "load is of the kind float, but must be a SpringLoad or ArmLoad": lambda: gc.spring_preload(CAM, 0.8, 600, 5),
+    "mass is of the kind SpringLoad, but must be a number of kg; under a load": lambda: gc.spring_preload(MOTION, LOAD),
     "deviations is of the kind MakingErrors": lambda: gc.MadeCam(CAM, gc.MakingErrors(offset=0.1)),
     "limits is of the kind tuple, but must be a Limits": lambda: gc.sweep(DESIGNS, limits=(0.5, 0.5)),
     "load is of the kind int, but must be a SpringLoad or ArmLoad": lambda: gc.sweep(DESIGNS, "max_torque", load=5),
@@ -53,6 +53,12 @@ WRONG = {
     "preload is of the kind SpringPreload, but must be a number of N; write spring_preload": lambda: gc.SpringLoad(
         0.8, 600, 5, gc.spring_preload(MOTION, 0.8, 600, 5)
     ),
+    "pencil is of the kind float, but must be a Pencil; write graphcam.Pencil.of": lambda: gc.solve(
+        gc.builtin_task(), 0.2
+    ),
+    "errors is of the kind float, but must be a MakingErrors": lambda: gc.motion_bands(CAM, 0.1),
+    "cam is of the kind Motion, but must be a Cam$": lambda: gc.largest_roller(MOTION),
+    "path is of the kind int, but must be a str or Path": lambda: gc.load_task(3),
     "follower is of the kind str, but must be a Translating": lambda: gc.minimum_radius(MOTION, "flat-faced"),
     "sizes is 'ofset', but must be one of roller_radius, offset, distance, .*; did you mean 'offset'": lambda: (
         gc.Deviations((), NONE, {"ofset": 0.05})
@@ -71,7 +77,7 @@ def test_a_wrong_kind_is_told_by_name(said):
 
 def test_a_number_in_place_of_a_range_fixes_a_size():
     """As two equal ends do."""
-    sizes = {"roller_radius": (10, 15), "face_width": (10, 20), "permitted_stress": 1500}
+    sizes = {"roller_radius": (10, 15), "width": (10, 20), "permitted_stress": 1500}
     fixed, range_ = (gc.size_cam(MOTION, LOAD, prime_radius=(60, 120), offset=e, **sizes) for e in (0, (0, 0)))
     assert fixed.sizes == range_.sizes
     assert gc.size_cam(MOTION, LOAD, prime_radius=np.float64(70), offset=0, **sizes).radius == 70
@@ -101,10 +107,10 @@ NUMBERS = {
     "overhang": lambda x: gc.Guide(0.1, x, 40),
     "friction": lambda x: gc.CamForces(CAM, LOAD, friction=x),
     "width": gc.RollerContact,
-    "permitted stress": lambda x: gc.ContactStress(FORCES, CONTACT).least_width(x),
+    "permitted stress": lambda x: gc.ContactStress(FORCES, CONTACT).min_width(x),
     "pencil line": lambda x: gc.Pencil(line=x),
     "damping": lambda x: gc.FollowerTrain(1, 1000, damping=x),
-    "poisson1": lambda x: gc.RollerContact(10, poisson1=x),
+    "poisson_cam": lambda x: gc.RollerContact(10, poisson_cam=x),
     "tolerance": lambda x: gc.measured_motion(np.linspace(0, 6, 60), np.zeros(60), x),
 }
 

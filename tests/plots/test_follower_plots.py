@@ -24,7 +24,7 @@ def drawn(axes, label):
 
 def test_the_curves_of_a_spectrum_are_its_values():
     spectrum = gc.shock_spectrum("cycloidal", [3.5, 1.0, 2.0, 0.5])
-    axes = spectrum.plot(axes=Figure().add_subplot())
+    axes = spectrum.plot(ax=Figure().add_subplot())
     order = np.argsort(spectrum.n)
     for label, values in (("during the rise (primary)", spectrum.primary), ("in the dwell", spectrum.residual)):
         (line,) = [line for line in axes.lines if line.get_label().startswith(label)]
@@ -32,20 +32,20 @@ def test_the_curves_of_a_spectrum_are_its_values():
         assert n.tolist() == [0.5, 1.0, 2.0, 3.5]
         assert height.tolist() == values[order].tolist()
     assert axes.get_title() == "Shock spectrum, cycloidal, without damping"
-    assert axes.get_ylim()[1] > spectrum.greatest.max()
+    assert axes.get_ylim()[1] > spectrum.maximum.max()
     assert axes.get_xscale() == "linear"
 
 
 def test_ratios_over_many_decades_stand_on_logarithms_and_a_single_one_is_a_point():
-    assert gc.shock_spectrum("cosine", [0.01, 1, 100]).plot(axes=Figure()).get_xscale() == "log"
-    axes = gc.shock_spectrum("cosine", 1.0, 0.1).plot(axes=Figure())
+    assert gc.shock_spectrum("cosine", [0.01, 1, 100]).plot(ax=Figure()).get_xscale() == "log"
+    axes = gc.shock_spectrum("cosine", 1.0, 0.1).plot(ax=Figure())
     assert axes.lines[-1].get_marker() == "o"
     assert "damping ratio 0.1" in axes.get_title()
 
 
 def test_the_curves_of_a_response_are_its_values_with_both_sides_of_every_jump():
     response = gc.follower_response("rectangular", 5.3)
-    axes = response.plot(axes=Figure())
+    axes = response.plot(ax=Figure())
     upper, lower = axes.child_axes
     for diagram, k in ((upper, 0), (lower, 2)):
         u, mass = drawn(diagram, "mass")
@@ -61,14 +61,14 @@ def test_the_curves_of_a_response_are_its_values_with_both_sides_of_every_jump()
 @pytest.mark.parametrize(("rpm", "lost"), [(600, True), (100, False)])
 def test_the_curves_of_a_turn_are_its_values_and_lost_contact_is_marked(motion, rpm, lost):
     follower = gc.VibratingFollower(motion, TRAIN, rpm)
-    axes = follower.plot(axes=Figure())
+    axes = follower.plot(ax=Figure())
     upper, lower = axes.child_axes
     phi, a = drawn(upper, "mass")
     np.testing.assert_allclose(a, follower(np.radians(phi)).a, atol=1e-8 * np.abs(a).max())
     phi, force = drawn(lower, "force on the cam")
     np.testing.assert_allclose(force, follower(np.radians(phi)).force, atol=1e-8 * np.abs(force).max())
     # So dense that a vibration keeps its height.
-    assert force.min() == pytest.approx(follower.least_force().value, abs=0.01 * np.ptp(force))
+    assert force.min() == pytest.approx(follower.min_force().value, abs=0.01 * np.ptp(force))
     marked = [patch for patch in lower.patches if patch.get_label() == "contact is lost"]
     assert bool(marked) == lost
     if lost:

@@ -42,7 +42,7 @@ def things(solution):
 def test_given_axes_are_drawn_on_and_returned(solution):
     for thing in things(solution):
         axes = Figure().add_subplot()
-        assert thing.plot(axes=axes) is axes
+        assert thing.plot(ax=axes) is axes
         axes.figure.canvas.draw()
     # No figure was made for it.
     assert pyplot.get_fignums() == []
@@ -208,5 +208,69 @@ def test_one_view_alone_is_the_title_of_its_axes(solution):
 
 def test_axes_in_the_place_of_a_step_are_told_their_name():
     drawn = gc.solve(gc.builtin_task()).drawn["integration"]
-    with pytest.raises(gc.DesignError, match=r"step is .*, but must be an index of the steps, 0 to .*axes=\.\.\."):
+    with pytest.raises(gc.DesignError, match=r"step is .*, but must be an index of the steps, 0 to .*ax=\.\.\."):
         drawn.plot(Figure().add_subplot())
+
+
+def comparable():
+    """Pairs of values that one may want on the same axes."""
+    spring = gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=200)
+    laws = "3-4-5", "cycloidal"
+    motions = [
+        gc.Motion([gc.Rise(20, 2.0, law), gc.Dwell(1.0), gc.Return(20, 2.0, law), gc.Dwell(REST)]) for law in laws
+    ]
+    cams = [gc.Cam(motion, gc.Translating(0, 8), 40) for motion in motions]
+    forces = [gc.CamForces(cam, spring) for cam in cams]
+    yield motions
+    yield cams
+    yield forces
+    yield [gc.ContactStress(each, gc.RollerContact(width=10)) for each in forces]
+    yield [gc.motion_bands(cam, gc.MakingErrors(offset=0.05), samples=20) for cam in cams]
+    yield [gc.shock_spectrum(law) for law in laws]
+    yield [gc.follower_response(law, 3.0) for law in laws]
+
+
+REST = 2 * np.pi - 5.0
+
+
+def test_two_values_stand_on_one_pair_of_axes_by_name_and_colour():
+    for first, second in comparable():
+        axes = first.plot(label="first", color="tab:green")
+        assert second.plot(ax=axes, label="second", color="tab:red") is axes
+        diagrams = axes.child_axes or [axes]
+        named = {line.get_label() for diagram in diagrams for line in diagram.lines}
+        assert any("first" in str(name) for name in named), first
+        assert any("second" in str(name) for name in named), first
+        colours = {line.get_color() for diagram in diagrams for line in diagram.lines}
+        assert {"tab:green", "tab:red"} <= colours
+        legends = [diagram.get_legend() for diagram in diagrams if diagram.get_legend()]
+        assert any("second" in text.get_text() for text in legends[0].get_texts())
+        axes.figure.canvas.draw()
+        pyplot.close("all")
+
+
+def test_the_curves_of_forces_and_stress_are_their_values():
+    _, _, forces, stresses, *_ = comparable()
+    normal, torque = (diagram.lines[0].get_xydata().T for diagram in forces[0].plot().child_axes)
+    for (phi, drawn), name in ((normal, "normal"), (torque, "torque")):
+        found = [getattr(forces[0].at(np.radians(phi), side=side), name) for side in ("left", "right")]
+        assert np.minimum(*(np.abs(drawn - each) for each in found)).max() < 1e-6 * np.abs(drawn).max()
+    _, pressure = stresses[0].plot().lines[0].get_xydata().T
+    assert pressure.max() == pytest.approx(stresses[0].max_pressure().value, rel=1e-3)
+
+
+def test_a_drawing_takes_a_colour_and_a_title(solution):
+    axes = solution.drawn["integration"].plot(label="Integration", color="tab:red")
+    assert axes.get_title() == "Integration"
+    assert {artist.colour for artist in axes.artists} == {"tab:red"}
+    axes.figure.canvas.draw()
+
+
+def test_an_array_of_axes_is_told(solution):
+    for thing in [*things(solution), *(first for first, _ in comparable())]:
+        with pytest.raises(gc.DesignError, match=r"ax is an array of 2 axes, .* write ax=axes\[0\]"):
+            thing.plot(ax=Figure().subplots(2))
+        with pytest.raises(gc.DesignError, match="ax is of the kind str, but must be axes of matplotlib"):
+            thing.plot(ax="left")
+        with pytest.raises(TypeError, match="no argument 'axes' any more: write 'ax'"):
+            thing.plot(axes=Figure().add_subplot())

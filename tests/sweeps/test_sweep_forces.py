@@ -42,10 +42,10 @@ def one_by_one(designs: gc.Designs, load, friction: float) -> dict[str, np.ndarr
         try:
             cam = designs.cam(k)
             row["jamming_margin"] = gc.jamming_margin(cam, friction).value
-            row["least_preload"] = gc.least_preload(cam, load).preload
+            row["least_preload"] = gc.spring_preload(cam, load).preload
             forces = gc.CamForces(cam, load, friction=friction)
-            row["max_normal_force"], row["min_normal_force"] = forces.greatest_normal()[0], forces.least_normal()[0]
-            row["max_torque"] = forces.greatest_torque().value
+            row["max_normal_force"], row["min_normal_force"] = forces.max_normal()[0], forces.min_normal()[0]
+            row["max_torque"] = forces.max_torque().value
         except gc.DesignError as error:
             if error.quantity == "at.anchor":
                 row = dict.fromkeys(FORCE_QUANTITIES, math.nan)

@@ -35,7 +35,7 @@ def test_every_design_is_the_cam_with_its_sizes():
         extremes, forces = cam.extremes(), gc.CamForces(cam, load, friction=0.1)
         expected = (
             *(extremes.min_convex_radius[0], extremes.pressure_angle_rise[0]),
-            *(forces.greatest_normal().value, forces.least_normal().value, forces.greatest_torque().value),
+            *(forces.max_normal().value, forces.min_normal().value, forces.max_torque().value),
             gc.jamming_margin(cam, 0.1).value,
         )
         assert [found[name][k] for name in found] == pytest.approx(expected, rel=1e-9, abs=1e-12)

@@ -61,7 +61,7 @@ def test_the_greatest_stress_is_that_of_the_exact_cam(tmp_path):
     found = solution.to_dict()["contact_stress"]
     load = gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=10, preload=6000)
     stress = gc.ContactStress(gc.CamForces(solution.cam, load), gc.RollerContact(15))
-    exact, at = stress.greatest(), found["greatest"]
+    exact, at = stress.max_pressure(), found["greatest"]
     assert at["value"] == exact.value
     assert math.radians(at["phi_deg"]) == pytest.approx(exact.phi)
     radius, force = at["profile_radius"]["value"], at["normal_force"]["value"]
@@ -70,7 +70,7 @@ def test_the_greatest_stress_is_that_of_the_exact_cam(tmp_path):
     assert found["permitted"] == {"value": 1000.0, "unit": "MPa", "kept": False}
     # On the least width that is told the permitted stress is reached, and not exceeded.
     wide = replace(solution.task, material=MaterialTable(found["least_width"]["value"], permitted_stress=1000.0))
-    assert gc.solve(wide).stress.greatest.value == pytest.approx(1000.0, rel=1e-12)
+    assert gc.solve(wide).stress.max_pressure.value == pytest.approx(1000.0, rel=1e-12)
     json.dumps(found, allow_nan=False)
 
 
@@ -144,7 +144,7 @@ def test_a_cam_that_nothing_presses_on_is_not_stressed(tmp_path):
     solution = solved(tmp_path, TRANSLATING + MATERIAL + "permitted_stress = 500\n")
     design = solution.stress
     slack = replace(design, forces=gc.CamForces(solution.cam, gc.SpringLoad(0, 0, 0, preload=-5)))
-    assert (slack.without, slack.greatest, slack.permitted) == ("no force", None, None)
+    assert (slack.without, slack.max_pressure, slack.permitted) == ("no force", None, None)
     assert list(slack.cautions) == []
 
 
@@ -179,11 +179,11 @@ def test_other_materials_and_their_order(tmp_path):
     """A softer follower flattens more; which body is the softer one does not matter."""
     soft = "young_{0} = 110000\npoisson_{0} = 0.34\n"
     one, other = (solved(tmp_path, TRANSLATING + MATERIAL + soft.format(body)) for body in ("cam", "follower"))
-    steel = solved(tmp_path, TRANSLATING + MATERIAL).stress.greatest.value
-    assert one.stress.greatest.value == pytest.approx(other.stress.greatest.value, rel=1e-14)
-    assert one.stress.greatest.value < steel
-    modulus = gc.RollerContact(15, young1=110000, poisson1=0.34).modulus
-    assert one.stress.greatest.value == pytest.approx(steel * math.sqrt(modulus / gc.RollerContact(15).modulus))
+    steel = solved(tmp_path, TRANSLATING + MATERIAL).stress.max_pressure.value
+    assert one.stress.max_pressure.value == pytest.approx(other.stress.max_pressure.value, rel=1e-14)
+    assert one.stress.max_pressure.value < steel
+    modulus = gc.RollerContact(15, young_cam=110000, poisson_cam=0.34).modulus
+    assert one.stress.max_pressure.value == pytest.approx(steel * math.sqrt(modulus / gc.RollerContact(15).modulus))
 
 
 def test_without_materials_nothing_is_said_of_stress(tmp_path):

@@ -43,8 +43,8 @@ def test_the_design_source_s_case_is_the_least_base_radius_of_the_shaded_region(
     least = gc.minimum_radius(task.motion(), gc.Translating(), "ccw", rise=math.radians(25), offset=20.0)
     assert best.radius == pytest.approx(least.prime_radius - 15, rel=1e-11)
     load = gc.SpringLoad(2, 120, 20, preload=5000)
-    wide = gc.ContactStress(gc.CamForces(best.cam, load), gc.RollerContact(1.0)).least_width(1500)
-    assert best.face_width == pytest.approx(wide, rel=1e-11)
+    wide = gc.ContactStress(gc.CamForces(best.cam, load), gc.RollerContact(1.0)).min_width(1500)
+    assert best.width == pytest.approx(wide, rel=1e-11)
     assert set(best.active) == {"pressure angle on the rise", "stress"}
     assert best.binding == ("pressure angle on the rise",)
 
@@ -60,7 +60,7 @@ def test_the_sized_task_is_drawn_and_keeps_what_was_asked(tmp_path):
     assert [said for said in solution.warnings if not said.startswith("On paper ρ is only")] == []
     assert (solution.cam.prime_radius, solution.cam.roller_radius) == (94, 15)
     assert solution.stress.permitted
-    assert solution.stress.greatest.value == pytest.approx(sizing.adopted.stress, rel=1e-12)
+    assert solution.stress.max_pressure.value == pytest.approx(sizing.adopted.stress, rel=1e-12)
 
 
 @pytest.mark.slow
@@ -97,18 +97,18 @@ def test_round_sizes_keep_the_limits_and_are_the_next_ones(tmp_path):
         text = TEXT.replace('frame = "iso"', f'frame = "iso"\nrounding = {rounding}')
         sizing = sizing_of(text, tmp_path)
         adopted, problem = sizing.adopted, sizing.best.problem
-        for value in (adopted.cam.prime_radius, adopted.face_width):
+        for value in (adopted.cam.prime_radius, adopted.width):
             assert value / rounding == pytest.approx(round(value / rounding), abs=1e-9)
         assert problem.keeps(adopted.sizes, slack=0.0)
         assert not problem.keeps(
             replace(adopted.sizes, radius=adopted.cam.prime_radius - rounding, width=30), slack=0.0
         )
-        assert not problem.keeps(replace(adopted.sizes, width=adopted.face_width - rounding), slack=0.0)
+        assert not problem.keeps(replace(adopted.sizes, width=adopted.width - rounding), slack=0.0)
 
 
 def test_where_no_round_sizes_are_in_the_ranges_finer_ones_are_taken(tmp_path):
     sizing = sizing_of(TEXT.replace("[60, 120]", "[78.5, 78.9]").replace("[10, 30]", "[23.0, 23.2]"), tmp_path)
-    assert (sizing.adopted.radius, sizing.adopted.face_width) == (78.8, 23.1)
+    assert (sizing.adopted.radius, sizing.adopted.width) == (78.8, 23.1)
 
 
 def test_a_size_without_a_range_is_the_task_s_and_an_open_preload_the_least(tmp_path):
@@ -119,7 +119,7 @@ def test_a_size_without_a_range_is_the_task_s_and_an_open_preload_the_least(tmp_
     ranges = sizing.best.problem.ranges
     assert ranges == {"prime radius": (40, 120), "offset": (0, 20), "roller radius": (12, 12), "face width": (20, 20)}
     load = sizing.best.problem.load
-    assert gc.Contact(sizing.best.problem.motion, load).least_force().value == pytest.approx(0, abs=1e-9)
+    assert gc.Contact(sizing.best.problem.motion, load).min_force().value == pytest.approx(0, abs=1e-9)
     assert load.preload > 50
 
 
@@ -128,9 +128,9 @@ def test_friction_at_the_cam_counts(tmp_path):
     text = TEXT.replace("[spring]", "[spring]\nfriction = 0.15")
     found = sizing_of(text, tmp_path).best
     forces = gc.CamForces(found.cam, found.problem.load, friction=0.15)
-    stress = gc.ContactStress(forces, gc.RollerContact(found.face_width)).greatest().value
+    stress = gc.ContactStress(forces, gc.RollerContact(found.width)).max_pressure().value
     assert stress == pytest.approx(1500, rel=1e-10)
-    assert found.face_width > gc.size_task(gc.builtin_task("sizing")).best.face_width + 0.2
+    assert found.width > gc.size_task(gc.builtin_task("sizing")).best.width + 0.2
 
 
 def test_the_roller_s_share_of_the_prime_radius_is_kept(tmp_path):

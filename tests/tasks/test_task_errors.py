@@ -71,7 +71,7 @@ FAULTS = {
     ),
     "a phase that is a number": ((RISE, "80"), "motion.phases[0]", "80 table"),
     "phases that are a number": ((MOTION, "[motion]\nphases = 4\n"), "motion.phases", "4 list"),
-    "no phases": ((MOTION, "[motion]\nphases = []\n"), "motion.phases (sum of the angles)", "360 missing"),
+    "no phases": ((MOTION, "[motion]\nphases = []\n"), "motion.phases", "empty list rise return"),
     "an empty motion": ((MOTION, "[motion]\n"), "motion.phases", "missing graphcam init"),
     "no motion": ((MOTION, ""), "motion", "missing graphcam init"),
     "nothing but rest": (

@@ -255,8 +255,12 @@ def ids_from(path: str | Path) -> Caption:
     ------
     TaskError : the file cannot be read
     """
-    if heading := id_heading(path):
-        return say("ids from the column '{column}'", column=heading)
+    rows = [row for _, row in read_table(path, "the roster")]
+    columns = roster_columns(rows)
+    if columns.heading and not columns.names and len(rows[0]) > 1:
+        return say("ids from the column '{column}'; no column is headed 'name'", column=columns.heading)
+    if columns.heading:
+        return say("ids from the column '{column}'", column=columns.heading)
     return say("ids from the first column; no line is a heading")
 
 

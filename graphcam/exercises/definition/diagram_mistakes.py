@@ -31,7 +31,7 @@ def wrong_law(law: str) -> Change:
         raise DesignError("law", law, say("one of the known laws"), nearest_word_remedy(law, LAWS))
 
     def by_law(phase: Phase) -> Phase:
-        return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)
+        return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, canonical_law(law))
 
     return lambda chain: _with_phases(chain, [by_law(phase) for phase in chain.board.motion.phases])
 
