@@ -1,9 +1,9 @@
-"""Conditions of motion solved in rational numbers, and what is found as series that the machine computes well.
+"""Conditions of motion solved with some 360 digits, and what is found as series that the machine computes well.
 
-Degrees up to 31 lose all digits in floating point long before the motion itself is unsound; with fractions what is left
-of a doubtful result is the doubt in the conditions.  Every polynomial that is found is cut into cells until in each the
-terms of the series about its middle hardly cancel; where the motion rests, the series begins there, so that the little
-that it has left keeps its digits.  Every coefficient is rounded once.  A cell keeps the terms that count.
+Degrees up to 31 lose all digits in floating point long before the motion itself is unsound; with so many what is left
+of a doubtful result is the doubt in the conditions.  Every polynomial that is found is cut into cells until in each
+the terms of the series about its middle hardly cancel; where the motion rests, the series begins there, so that the
+little that it has left keeps its digits.  Every coefficient is rounded once.  A cell keeps the terms that count.
 
 A polynomial is the list of its coefficients, the lowest first.  Source: C. de Boor, *A Practical Guide to Splines*
 (rev. ed., 2001), chapters IX, X and XIII.
@@ -15,6 +15,7 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
+from operator import mul
 
 import numpy as np
 
@@ -30,6 +31,10 @@ PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
 """The number pi to 60 digits."""
 MAX_DENOMINATOR = 10**6
 """A number that is the nearest one of the machine to a fraction with no greater a denominator stands for it."""
+WORKING_BITS = 1200
+"""The binary digits after the point with which conditions are solved: so many that hundreds of them may cancel."""
+ONE = 1 << WORKING_BITS
+"""The number 1 in units of 2^-WORKING_BITS."""
 COEFFICIENT_BITS = 400
 """The binary digits that the largest of the coefficients that were solved for keeps."""
 MAX_CANCELLATION = 2.0
@@ -84,20 +89,24 @@ def solve_conditions(degree: int, inner: Sequence[Fraction], conditions: Sequenc
         # Powers are the quickest of all polynomials here, and in rational numbers as sound as any.
         found = solve_exactly([_powers(degree, *place) for place in places], right)
         return [(Fraction(0), Fraction(1), _rounded(found))] if found else None
-    knots = [*[Fraction(0)] * (degree + 1), *inner, *[Fraction(1)] * (degree + 1)]
-    spans = [(k, low, high) for k, (low, high) in enumerate(pairwise(knots)) if high > low]
-    rows: list[list[Fraction]] = []
+    knots = [*[0] * (degree + 1), *map(_units, inner), *[ONE] * (degree + 1)]
+    ends = [Fraction(0)] * (degree + 1) + [*inner] + [Fraction(1)] * (degree + 1)
+    spans = [(k, low, high) for k, (low, high) in enumerate(pairwise(ends)) if high > low]
+    rows: list[list[int]] = []
     for place, order in places:
         k = next(k for k, _, high in spans if place <= high)
-        rows.append([Fraction(0)] * len(places))
-        rows[-1][k - degree : k + 1] = _b_splines(knots, degree, k, place, order)
-    found = solve_exactly(rows, right)
+        rows.append([0] * len(places))
+        rows[-1][k - degree : k + 1] = _b_splines(knots, degree, k, _units(place), order)
+    found = _solve_units(rows, [_units(value) for value in right])
     if found is None:
         return None
-    found, solved = _rounded(found), list[Span]()
+    solved: list[Span] = []
     for k, low, high in spans:
         taylor = [
-            _sum(found[k - degree : k + 1], _b_splines(knots, degree, k, low, order)) / math.factorial(order)
+            Fraction(
+                sum(map(mul, found[k - degree : k + 1], _b_splines(knots, degree, k, knots[k], order))),
+                math.factorial(order) << 2 * WORKING_BITS,
+            )
             for order in range(degree + 1)
         ]
         solved.append((low, high, _rounded([c * (high - low) ** order for order, c in enumerate(taylor)])))
@@ -109,24 +118,19 @@ def _powers(degree: int, at: Fraction, order: int) -> list[Fraction]:
     return [math.perm(k, order) * at ** max(k - order, 0) for k in range(degree + 1)]
 
 
-def _b_splines(knots: Sequence[Fraction], degree: int, k: int, at: Fraction, order: int) -> list[Fraction]:
-    """A derivative at a place of the B-splines that are not zero between knots k and k + 1."""
-    values = [Fraction(int(order <= degree))]
+def _b_splines(knots: Sequence[int], degree: int, k: int, at: int, order: int) -> list[int]:
+    """A derivative at a place of the B-splines that are not zero between knots k and k + 1, all in units."""
+    values = [ONE if order <= degree else 0]
     for p in range(1, degree + 1):
-        raised = [Fraction(0)] * (p + 1)
+        raised = [0] * (p + 1)
         for m, value in enumerate(values):
             # B-spline number k - p + 1 + m of the degree before is shared between this number and the one before it.
-            first = knots[k - p + 1 + m]
-            length = knots[k + 1 + m] - first
-            up, down = (at - first, knots[k + 1 + m] - at) if p <= degree - order else (p, -p)
-            raised[m + 1] += value * up / length
-            raised[m] += value * down / length
+            first, last = knots[k - p + 1 + m], knots[k + 1 + m]
+            up, down = (at - first, last - at) if p <= degree - order else (p * ONE, -p * ONE)
+            raised[m + 1] += value * up // (last - first)
+            raised[m] += value * down // (last - first)
         values = raised
     return values
-
-
-def _sum(factors: Sequence[Fraction], values: Sequence[Fraction]) -> Fraction:
-    return sum((c * value for c, value in zip(factors, values, strict=True)), Fraction(0))
 
 
 def _rounded(p: Sequence[Fraction]) -> Exact:
@@ -145,24 +149,38 @@ def solve_exactly(rows: Sequence[Sequence[Fraction]], right: Sequence[Fraction])
     >>> solve_exactly([[one, two], [two, two * two]], [two, one]) is None
     True
     """
-    table = [[*row, last] for row, last in zip(rows, right, strict=True)]
+    found = _solve_units([[*map(_units, row)] for row in rows], [*map(_units, right)])
+    return None if found is None else [Fraction(x, ONE) for x in found]
+
+
+def _units(x: Fraction) -> int:
+    return (x.numerator << WORKING_BITS) // x.denominator
+
+
+def _solve_units(rows: Sequence[Sequence[int]], right: Sequence[int]) -> list[int] | None:
+    """The same in whole numbers of units, which do not grow from one elimination to the next as fractions would."""
+    largest = [max(map(abs, row)) for row in rows]
+    if not all(largest):
+        return None
+    # Beside a greatest coefficient of 1 what is no more than rounding is told from what counts.
+    table = [[x * ONE // most for x in (*row, last)] for row, last, most in zip(rows, right, largest, strict=True)]
     n = len(table)
     for k in range(n):
-        pivots = [row for row in range(k, n) if table[row][k]]
-        if not pivots:
-            return None
-        # The number of fewest digits: what is divided by it grows least.
-        best = min(pivots, key=lambda row: table[row][k].denominator * abs(table[row][k].numerator))
+        best = max(range(k, n), key=lambda row: abs(table[row][k]))
         table[k], table[best] = table[best], table[k]
-        filled = [column for column in range(k, n + 1) if table[k][column]]
+        pivot = table[k][k]
+        if abs(pivot) >> WORKING_BITS // 2 == 0:
+            return None
+        filled = [column for column in range(k + 1, n + 1) if table[k][column]]
         for row in range(k + 1, n):
             if table[row][k]:
-                share = table[row][k] / table[k][k]
+                share = table[row][k] * ONE // pivot
                 for column in filled:
-                    table[row][column] -= share * table[k][column]
-    found = [Fraction(0)] * n
+                    table[row][column] -= share * table[k][column] >> WORKING_BITS
+    found = [0] * n
     for k in range(n - 1, -1, -1):
-        found[k] = (table[k][n] - _sum(table[k][k + 1 : n], found[k + 1 :])) / table[k][k]
+        known = sum(map(mul, table[k][k + 1 : n], found[k + 1 :]))
+        found[k] = (table[k][n] * ONE - known) // table[k][k]
     return found
 
 

@@ -105,7 +105,7 @@ def test_dense_rows_with_noise_keep_their_dwells(law):
     moving = [phase for phase in measured.phases if phase.angle > radians(1)]
     assert [phase.kind for phase in moving] == ["rise", "dwell", "return", "dwell"]
     assert_allclose(np.degrees([phase.angle for phase in moving]), [80, 45, 60, 175], atol=1.0)
-    assert measured.greatest_residual <= 0.06
+    assert measured.max_residual <= 0.06
 
 
 @over_all("tolerance", [0.0005, 0.001, 0.002])
