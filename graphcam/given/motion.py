@@ -359,7 +359,7 @@ class Motion(Plottable):
                 return k, phase.steady_acceleration
         return rise[0], 4 * rise[1].lift / rise[1].angle ** 2
 
-    @property
+    @cached_property
     def directions(self) -> Floats:
         """(k,) the direction of each phase: +1 of a rise, -1 of a return, 0 of a dwell."""
         return np.array([float(phase.direction) for phase in self.phases])

@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import NamedTuple, cast, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.former_names import renamed
@@ -174,7 +173,7 @@ class Contact:
         that has left the cam comes back to it later than the interval ends.
         """
         found: list[Interval] = []
-        for start, end in (self._interval(*ends) for ends in self._stretches()):
+        for start, end in self._negative_stretches().tolist():
             if not start < end:
                 continue
             if found and start - found[-1][1] <= VALUE_ROUNDING * FULL_TURN:
@@ -208,32 +207,30 @@ class Contact:
         size = float(self.load.size(places.values).max())
         return first_highest(self.motion, places, lambda places: sign * self.force(places), self.load.knots, size)
 
-    def _stretches(self) -> list[tuple[int, float, float]]:
-        """(phase, u, u) of stretches in which xi is monotonous, in order."""
+    def _stretches(self) -> tuple[NDArray[np.intp], Floats, Floats]:
+        """Phase, u and u (n,) of the ends of stretches in which xi is monotonous, in order."""
         phase, u0, u1 = smooth_pieces(self.motion, self.load.knots)
-        places = self._places
-        roots, root_phase = places.u[2 * phase.size :], places.phase[2 * phase.size :]
-        stretches: list[tuple[int, float, float]] = []
-        for k, low, high in zip(phase, u0, u1, strict=True):
-            inside = np.unique(roots[(root_phase == k) & (low < roots) & (roots < high)])
-            ends = [float(low), *map(float, inside), float(high)]
-            stretches += [(int(k), a, b) for a, b in pairwise(ends)]
-        return stretches
+        ends = np.concatenate([u0, u1, self._places.u[2 * phase.size :]])
+        phases = np.concatenate([phase, phase, self._places.phase[2 * phase.size :]])
+        order = np.lexsort((ends, phases))
+        phases, ends = phases[order], ends[order]
+        here = np.flatnonzero((phases[1:] == phases[:-1]) & (ends[1:] > ends[:-1]))
+        return phases[here], ends[here], ends[here + 1]
 
-    def _interval(self, phase: int, low: float, high: float) -> tuple[float, float]:
-        """The interval of a stretch [rad] in which xi is negative; empty if it begins and ends at the same angle."""
+    def _negative_stretches(self) -> Floats:
+        """The intervals (n, 2) of cam angles [rad] in which xi is negative, each within one stretch."""
+        phase, low, high = self._stretches()
+        # From inside: beyond the end of the stretch the force may have jumped.
+        first, last = self._force(phase, low), self._force(phase, high, "left")
+        size = np.maximum(*(self.load.size(self.motion.at(phase, u)) for u in (low, high)))
+        negative = np.minimum(first, last) < -VALUE_ROUNDING * size
+        phase, low, high, first, last = (each[negative] for each in (phase, low, high, first, last))
 
-        def xi(u: float) -> float:
-            """The force at a part u of the phase, from 0 to 1."""
-            # From inside: beyond the end of the stretch the force may have jumped.
-            return float(self._force([phase], [u], "left" if u == high else "right")[0])
+        def xi(u: Floats) -> Floats:
+            """The forces at parts u of the phases, from 0 to 1."""
+            return np.where(u == high, last, self._force(phase, u))
 
-        first, last = xi(low), xi(high)
-        slack = VALUE_ROUNDING * max(float(self.load.size(self.motion.at(phase, u)).max()) for u in (low, high))
-        start, end = low, high
-        if min(first, last) >= -slack:
-            end = low
-        elif first * last < 0:
-            root = float(roots(lambda u: np.asarray(xi(float(u))), low, high))
-            start, end = (root, high) if last < 0 else (low, root)
-        return float(self.motion.angle_at(phase, start)), float(self.motion.angle_at(phase, end))
+        crossing = first * last < 0
+        root = roots(xi, low, high)
+        start, end = np.where(crossing & (last < 0), root, low), np.where(crossing & (last > 0), root, high)
+        return np.stack([self.motion.angle_at(phase, start), self.motion.angle_at(phase, end)], axis=1)
