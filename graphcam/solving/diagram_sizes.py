@@ -144,6 +144,10 @@ class DrawnHeights:
         # Where the velocity jumps in every phase, no acceleration is drawn.
         return min(most.a / a if a else math.inf, most.v * first / v, most.s * first * second / s)
 
+    def displacement(self, ordinate: float, poles: tuple[float, float]) -> float:
+        """How high the displacement is drawn."""
+        return ordinate * self.unit[2] / (poles[0] * poles[1])
+
     def choose(
         self,
         room: DiagramRoom,

@@ -97,7 +97,14 @@ def board_of(task: Task) -> Board:
     if not drawing.whole_turn and task.motion.phases:
         mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest_axis(drawing))
     heights = DrawnHeights(motion, mu_phi)
-    ordinate, poles = heights.choose(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
+    most = page_room(task, heights, follower)
+    if mu_phi.per_mm != mu_alpha.per_mm:
+        # The displacement is no higher than at the usual scale, so that the combined diagram keeps to its room.
+        usual = DrawnHeights(motion, mu_alpha)
+        most = replace(
+            most, s=min(most.s, usual.displacement(*usual.choose(room, most, drawing.ordinate, drawing.poles)))
+        )
+    ordinate, poles = heights.choose(room, most, drawing.ordinate, drawing.poles)
     return Board(
         motion=motion,
         follower=follower,
@@ -205,13 +212,13 @@ POLE_MARGIN = 24.0
 """What stands to the left of a pole, and to the right of a turn."""
 
 
-MIN_POLE = 30.0
-"""A page that a long axis of the cam angle takes keeps room for a pole so long [mm of paper]."""
+BROKEN_AXIS_MARGIN = 40.0
+"""What stands beside a pole and a broken axis, with its graduations and letters [mm of paper]."""
 
 
 def longest_axis(drawing: SheetTable) -> float:
     """The longest axis of the cam angle that a page has room for, with the pole and what stands beside [mm]."""
-    return max(width for width, _ in free_rooms(format_of(drawing))) - POLE_MARGIN - MIN_POLE
+    return max(width for width, _ in free_rooms(format_of(drawing))) - BROKEN_AXIS_MARGIN - STANDARD_POLES[0]
 
 
 def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> DiagramRoom:
@@ -219,7 +226,7 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
-    beside = heights.turn + POLE_MARGIN
+    beside = heights.turn + (BROKEN_AXIS_MARGIN if heights.mu_phi.middles else POLE_MARGIN)
     diagram = max(papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0)), key=lambda paper: paper.height)
     size = follower.extent(heights.values, task.limits(), task.rotation, task.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
