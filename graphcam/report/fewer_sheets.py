@@ -91,7 +91,7 @@ def wider_parts(solution: AnySolution) -> Caption | None:
     >>> from graphcam.report.fewer_sheets import wider_parts
     >>> task = gc.builtin_task("sizing")
     >>> print(wider_parts(gc.solve(replace(task, drawing=task.drawing.on("A4")))))
-    The narrowest parts are 3.5 mm wide on A4, which is little for a hand; on A3 they are 4.4 mm wide.
+    The narrowest parts are 2.9 mm wide on A4, which is little for a hand; on A3 they are 4.4 mm wide.
     """
     if not isinstance(solution, Solution):
         return None

@@ -53,21 +53,20 @@ def narrowest_part(stations: Stations) -> float:
 def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: float) -> Scale:
     """The scale of the cam angle [rad/mm]: the usual one, or a finer one with broken dwells where parts were narrow.
 
-    usual : degrees/mm, for a whole turn;  longest : that the axis may be on a page of its own [mm of paper]
+    usual : degrees/mm, for a whole turn;  longest : that the axis and its usual pole may be on a page [mm of paper]
     """
     least = narrowest_part(stations)
     whole = Scale(math.radians(usual), "rad")
     if whole.paper(least) >= MIN_PART_WIDTH * (1 - SAME_WIDTH):
         return whole
     finer = [broken_axis(motion, math.radians(each)) for each in (usual, *FINER_AXES) if each <= usual]
-    usual_room, page = (
-        [axis for axis in finer if axis.paper(FULL_TURN) <= room * (1 + SAME_WIDTH)] or [whole]
-        for room in (whole.paper(FULL_TURN), longest)
-    )
+    lengths = [(axis, float(axis.paper(FULL_TURN)), math.radians(DEFAULT_POLE) / axis.per_mm) for axis in finer]
+    usual_room = [axis for axis, length, _ in lengths if length <= whole.paper(FULL_TURN) * (1 + SAME_WIDTH)] or [whole]
+    page = [axis for axis, length, pole in lengths if length + pole <= longest] or usual_room
     for axes, width in ((usual_room, MIN_PART_WIDTH), (usual_room, NARROW_PART_WIDTH), (page, NARROW_PART_WIDTH)):
         if wide := [axis for axis in axes if least / axis.per_mm >= width * (1 - SAME_WIDTH)]:
             return wide[0 if width == MIN_PART_WIDTH or axes is page else -1]
-    return page[-1]
+    return usual_room[-1]
 
 
 SAME_WIDTH = 1e-9

@@ -212,16 +212,13 @@ POLE_MARGIN = 24.0
 """What stands to the left of a pole, and to the right of a turn."""
 
 
-BROKEN_AXIS_MARGIN = 40.0
+BROKEN_AXIS_MARGIN = 38.0
 """What stands beside a pole and a broken axis, with its graduations and letters [mm of paper]."""
-MIN_POLE, MIN_POLES = 30.0, 15
-"""Beside a long axis a pole of so many mm has room, on a narrow page of such a part of its width."""
 
 
 def longest_axis(drawing: SheetTable) -> float:
-    """The longest axis of the cam angle that a page has room for, with a pole and what stands beside [mm]."""
-    widest = max(width for width, _ in free_rooms(format_of(drawing)))
-    return widest - BROKEN_AXIS_MARGIN - max(min(MIN_POLE, widest / MIN_POLES), STANDARD_POLES[0] + 1.0)
+    """The room of a page for a pole and the axis of the cam angle, without what stands beside [mm]."""
+    return max(width for width, _ in free_rooms(format_of(drawing))) - BROKEN_AXIS_MARGIN
 
 
 def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> DiagramRoom:

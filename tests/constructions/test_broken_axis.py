@@ -89,14 +89,14 @@ def width(board) -> float:
     return float(np.diff(board.mu_phi.paper(stations.phi))[stations.left].min())
 
 
-@over_all(("paper", "least"), [("A1", 5.0), ("A2", 5.0), ("A3", 4.0), ("A4", 3.0)])
+@over_all(("paper", "least"), [("A1", 5.0), ("A2", 5.0), ("A3", 4.0), ("A4", 2.0)])
 def test_parts_are_wide_enough_to_be_drawn(paper, least):
     """The rise of 21 degrees that was drawn on A3 with parts of 0.88 mm."""
     task = builtin_task("sizing")
     board = board_of(replace(task, drawing=task.drawing.on(paper)))
     assert width(board) >= least
     whole = board_of(replace(task, drawing=replace(task.drawing.on(paper), whole_turn=True)))
-    assert width(whole) < 2.0
+    assert width(whole) < least
     assert whole.mu_phi.paper(math.tau) == pytest.approx(math.tau / whole.mu_phi.per_mm)
     assert not whole.mu_phi.middles
 
