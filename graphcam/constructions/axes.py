@@ -278,12 +278,18 @@ def axes_over_phi(
     """
     low, high = height_range(heights)
     right, top = complex(end + AXIS_OVERHANG), (high + AXIS_OVERHANG) * UP
-    scale = say("μᵩ = {mu:.4g} rad/mm ({degrees:.4g}°/mm)", mu=mu_phi.per_mm, degrees=math.degrees(mu_phi.per_mm))
+    # Beside a broken dwell there is no room for it: it stands once, with the degrees under the lowest diagram.
+    scale = () if mu_phi.middles else (Label(complex(end), _scale_text(mu_phi), towards=-1 - 1j, small=True),)
     return (
         *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), ticks or degree_ticks(end, mu_phi)),
         *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j)),
-        Label(complex(end), scale, towards=-1 - 1j, small=True),
+        *scale,
     )
+
+
+def _scale_text(mu_phi: Scale) -> Caption:
+    degrees = math.degrees(mu_phi.per_mm)
+    return say("μᵩ = {mu:.4g} rad/mm ({degrees:.4g}°/mm)", mu=mu_phi.per_mm, degrees=degrees)
 
 
 def phi_axes(motion: Motion, stations: Stations, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
@@ -352,6 +358,8 @@ def degree_ticks(end: float, mu_phi: Scale) -> Segments:
 
 DEGREES_OFFSET, PHASES_OFFSET = 7.0, 26.0
 """So far below the lowest diagram the degrees stand, and the angles of the phases [mm]."""
+SCALE_OFFSET = 7.5
+"""So far below the line of degrees the scale of a broken axis stands [mm]."""
 
 
 def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
@@ -369,6 +377,7 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
     return (
         *(Line(np.array([0.0, end]) + level, Role.SCALE), strokes),
         *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True) for n, at in below),
+        *([Label(level - SCALE_OFFSET * UP, _scale_text(mu_phi), 1 + 0j, small=True)] if mu_phi.middles else []),
     )
 
 

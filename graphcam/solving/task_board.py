@@ -31,6 +31,7 @@ from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
 from graphcam.sheets.page_space import free_rooms
 from graphcam.solving.diagram_sizes import (
+    DEFAULT_POLE,
     STANDARD_POLES,
     DiagramRoom,
     DrawnHeights,
@@ -226,8 +227,11 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
-    beside = heights.turn + (BROKEN_AXIS_MARGIN if heights.mu_phi.middles else POLE_MARGIN)
-    diagram = max(papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0)), key=lambda paper: paper.height)
+    beside, pole = heights.turn + POLE_MARGIN, STANDARD_POLES[0]
+    if heights.mu_phi.middles:  # its page was chosen so that the usual pole has room
+        beside, pole = heights.turn + BROKEN_AXIS_MARGIN, max(pole, DEFAULT_POLE / heights.degrees_per_mm)
+    wide = papers(task.drawing, complex(beside + pole, 0.0)) or papers(task.drawing)
+    diagram = max(wide, key=lambda paper: paper.height)
     size = follower.extent(heights.values, task.limits(), task.rotation, task.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
     free = [complex(paper.width, paper.height) - DIAGRAM_MARGINS for paper in papers(task.drawing, DIAGRAM_MARGINS)]

@@ -74,7 +74,8 @@ def test_the_curve_and_the_graduation_are_broken_at_the_same_places():
             if isinstance(mark, Line) and mark.role is Role.RESULT and np.ptp(mark.points.imag) < 1e-9:
                 left, right = mark.points.real.min(), mark.points.real.max()
                 assert not any(left < x < right for x in middles)
-    _, _, *labels = degrees_below(axis.places[-1], axis, -20.0)
+    _, _, *labels, scale = degrees_below(axis.places[-1], axis, -20.0)
+    assert str(scale.text) == "μᵩ = 0.008727 rad/mm (0.5°/mm)"
     angles = [float(str(label.text)[:-1]) for label in labels]
     assert_allclose([label.at.real for label in labels], axis.paper(np.radians(angles)))
     assert axis.shows(np.radians(angles)).all()
