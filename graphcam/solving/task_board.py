@@ -227,10 +227,13 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
-    beside, pole = heights.turn + POLE_MARGIN, STANDARD_POLES[0]
-    if heights.mu_phi.middles:  # its page was chosen so that the usual pole has room
-        beside, pole = heights.turn + BROKEN_AXIS_MARGIN, max(pole, DEFAULT_POLE / heights.degrees_per_mm)
-    wide = papers(task.drawing, complex(beside + pole, 0.0)) or papers(task.drawing)
+    beside = heights.turn + POLE_MARGIN
+    wide = papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0))
+    if heights.mu_phi.middles:
+        # Beside a finer axis the usual pole is longer: a page with room for it is preferred.
+        room = heights.turn + BROKEN_AXIS_MARGIN
+        if wider := papers(task.drawing, complex(room + DEFAULT_POLE / heights.degrees_per_mm, 0.0)):
+            beside, wide = room, wider
     diagram = max(wide, key=lambda paper: paper.height)
     size = follower.extent(heights.values, task.limits(), task.rotation, task.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
