@@ -143,6 +143,10 @@ class DrawnHeights:
         # Where the velocity jumps in every phase, no acceleration is drawn.
         return min(most.a / a if a else math.inf, most.v * first / v, most.s * first * second / s)
 
+    def fit(self, most: DiagramRoom, ordinate: float, poles: tuple[float, float]) -> bool:
+        """Whether an ordinate and poles leave diagrams within a room."""
+        return max(poles) <= most.pole and ordinate <= self.largest_ordinate(most, poles)
+
     def displacement(self, ordinate: float, poles: tuple[float, float]) -> float:
         """How high the displacement is drawn."""
         return ordinate * self.unit[2] / (poles[0] * poles[1])

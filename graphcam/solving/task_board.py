@@ -97,15 +97,16 @@ def board_of(task: Task) -> Board:
     mu_phi = mu_alpha = Scale(math.radians(room.degrees_per_mm), "rad")
     if not drawing.whole_turn and task.motion.phases:
         mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest_axis(drawing))
-    heights = DrawnHeights(motion, mu_phi)
+    heights, given = DrawnHeights(motion, mu_phi), (drawing.ordinate, drawing.poles)
     most = page_room(task, heights, follower)
-    if mu_phi.per_mm != mu_alpha.per_mm:
+    if mu_phi != mu_alpha:
         # The displacement is no higher than at the usual scale, so that the combined diagram keeps to its room.
-        usual = DrawnHeights(motion, mu_alpha)
-        most = replace(
-            most, s=min(most.s, usual.displacement(*usual.choose(room, most, drawing.ordinate, drawing.poles)))
-        )
-    ordinate, poles = heights.choose(room, most, drawing.ordinate, drawing.poles)
+        usual, page = DrawnHeights(motion, mu_alpha), most
+        most = replace(page, s=min(page.s, usual.displacement(*usual.choose(room, page, *given))))
+        if any(given) and not heights.fit(page, *heights.choose(room, most, *given)):
+            # Given sizes may suit the whole turn alone.
+            mu_phi, heights, most = mu_alpha, usual, page_room(task, usual, follower)
+    ordinate, poles = heights.choose(room, most, *given)
     return Board(
         motion=motion,
         follower=follower,

@@ -102,6 +102,23 @@ def test_parts_are_wide_enough_to_be_drawn(paper, least):
     assert not whole.mu_phi.middles
 
 
+def test_a_given_ordinate_that_suits_the_whole_turn_alone_keeps_it():
+    task = builtin_task("sizing")
+    drawn = board_of(replace(task, drawing=replace(task.drawing, ordinate=4.0)))
+    assert drawn.mu_phi.middles
+    given = board_of(replace(task, drawing=replace(task.drawing, ordinate=60.0, poles=(12.0, 12.0))))
+    assert (given.mu_phi.middles, given.ordinate, given.poles) == ([], 60.0, (12.0, 12.0))
+
+
+def test_the_solution_tells_where_a_broken_axis_has_its_angles():
+    solution = gc.solve(builtin_task("sizing"))
+    ends = solution.to_dict()["scales"]["phi"]["broken_axis"]
+    axis = solution.chain.board.mu_phi
+    assert [end["phi_deg"] for end in ends] == [0.0, 21.0, 81.0, 141.0, 360.0]
+    assert_allclose([end["paper"] for end in ends], axis.paper(np.radians([end["phi_deg"] for end in ends])))
+    assert "broken_axis" not in gc.solve(builtin_task("coursework")).to_dict()["scales"]["phi"]
+
+
 def test_an_axis_whose_parts_are_wide_stays_whole():
     board = board_of(builtin_task("coursework"))
     assert (board.mu_phi.middles, width(board)) == ([], pytest.approx(5.0))
