@@ -239,14 +239,15 @@ def _print_solution(
 
 
 def _print_hint(solution: AnySolution, folder: Path) -> None:
-    """Print the sizes of the diagrams, where the task leaves them open, with which fewer sheets would do."""
+    """Print the sizes of the diagrams with which fewer sheets would do, and a format on which parts are wider."""
     # Loaded already, by what wrote the files.
     from graphcam.report.documents import contents_of
-    from graphcam.report.fewer_sheets import fewer_sheets
+    from graphcam.report.fewer_sheets import fewer_sheets, wider_parts
     from graphcam.report.output_folder import written_files
 
     pages = sum(file_kind(name) == "sheet" and name.endswith(".svg") for name in written_files(folder))
-    if pages > 1 and (hint := fewer_sheets(contents_of(solution), pages)) is not None:
+    fewer = fewer_sheets(contents_of(solution), pages) if pages > 1 else None
+    for hint in filter(None, (fewer, wider_parts(solution))):
         echo("", err=True)
         echo(hint, err=True)
 

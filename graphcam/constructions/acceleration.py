@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import (
     ARROW_OVERHANG,
+    BROKEN_DWELL,
     MIN_INFINITE_ARROW,
     degrees,
     height_range,
@@ -53,7 +54,9 @@ AccelerationDiagram = Construction[TurnGivens]
 
 
 def _scale_of_angle(diagram: AccelerationDiagram) -> Values:
-    yield {"base": float(diagram.first("base")), "mu": diagram.givens.mu_phi.per_mm}
+    mu_phi = diagram.givens.mu_phi
+    shown = float(np.degrees(FULL_TURN - mu_phi.left_out))
+    yield {"shown": shown, "base": float(diagram.first("base")), "mu": mu_phi.per_mm}
 
 
 def _ordinate_values(diagram: AccelerationDiagram) -> Values:
@@ -73,10 +76,14 @@ def _ordinate_values(diagram: AccelerationDiagram) -> Values:
 
 FORMULAS = (
     Formula(
-        r"\mu_\varphi = \frac{2\pi}{b}",
-        r"\mu_\varphi = \frac{2\pi}{<base:.2f>} = <mu:.6f>\ \text{<rad_per_mm>}",
+        r"\mu_\varphi = \frac{\Phi}{b}\cdot\frac{\pi}{180^\circ}",
+        r"\mu_\varphi = \frac{<shown:.6g>^\circ}{<base:.2f>}\cdot\frac{\pi}{180^\circ} = <mu:.6f>\ \text{<rad_per_mm>}",
         _scale_of_angle,
-        (MU_PHI, Symbol("b", say("the length of the axis"), "mm of paper")),
+        (
+            MU_PHI,
+            Symbol(r"\Phi", say("the angle that the axis shows, without what broken dwells leave out"), "°"),
+            Symbol("b", say("the length of the axis"), "mm of paper"),
+        ),
         of="base",
     ),
     Formula(
@@ -135,7 +142,7 @@ def acceleration_diagram(
     greatest = ordinate * np.array([phase.steady_acceleration for phase in phases]) / reference
 
     origin, u, left = hand.given("origin"), stations.u, stations.left
-    turn = hand.lay_off("turn", origin, RIGHT, FULL_TURN / mu_phi.per_mm)
+    turn = hand.lay_off("turn", origin, RIGHT, mu_phi.paper(FULL_TURN))
     axis, begins = _station_ticks(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
@@ -169,7 +176,7 @@ def _station_ticks(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale)
     """The stations on the axis: the phases are laid off, and each of their stretches is divided into equal parts."""
     bounds = np.array([[stretch.start, stretch.stop - 1] for stretch in stations.stretches])
     places, at = np.unique(stations.phi[bounds], return_inverse=True)
-    cuts = hand.lay_off("cuts", origin, RIGHT, places / mu_phi.per_mm)
+    cuts = hand.lay_off("cuts", origin, RIGHT, mu_phi.paper(places))
     station = np.arange(stations.u.size)
     stretch = np.searchsorted(bounds[:, 0], station, side="right") - 1
     start, end = at.reshape(bounds.shape)[stretch].T
@@ -272,7 +279,7 @@ def _arrows(diagram: AccelerationDiagram, reach: Floats) -> Iterator[Mark]:
     """The arrows with the sign of infinity, or with the acceleration; of two blows at one place one."""
     low, high = height_range(reach)
     for phi, acceleration in dict.fromkeys(diagram.givens.motion.blows):
-        foot = complex(phi / diagram.givens.mu_phi.per_mm)
+        foot = complex(diagram.givens.mu_phi.paper(phi))
         tip = foot + UP * (high if acceleration > 0 else low)
         text = "∞" if np.isinf(acceleration) else say("{a:.3g}", a=abs(acceleration))
         yield Arrow(foot, tip, Role.LIMIT)
@@ -288,6 +295,13 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
         "With T-square and ruler draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is "
         "{degree:.4g}° and μᵩ = {mu:.5f} rad/mm."
     ).with_values(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm)
+    if mu_phi.middles:
+        broken = [k for k, (start, stop) in enumerate(pairwise(ends)) if any(start < x < stop for x in mu_phi.middles)]
+        level = say(
+            "With T-square and ruler draw a horizontal line {length:.1f} mm long for one revolution. Broken by two "
+            "short strokes and only {room:g} mm long, because nothing moves there: {dwells}. Elsewhere 1 mm is "
+            "{degree:.4g}° and μᵩ = {mu:.5f} rad/mm."
+        ).with_values(**level.values, dwells=and_list([phase_title(motion, k) for k in broken]), room=BROKEN_DWELL)
     level = level if omega is None else sequence([level, time_axis_caption(mu_phi, omega)], " ")
     upright = say(
         "From its left end set off {ends} mm with the ruler, where the phases end, and draw a vertical at each with "

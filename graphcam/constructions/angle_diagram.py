@@ -115,10 +115,10 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     givens = plotted.givens.measured.givens.integrated.givens
     stations, curve = givens.stations, plotted.acts["curve"]
     axis, heights = plotted.acts["acceleration: axis"].first, curve.shown.imag
-    across, up, _, ticks, phi, name, scale = givens.axes("α", heights)
+    across, up, _, ticks, phi, name, *scale = givens.axes("α", heights)
     read = plotted.readings["max_rise"].act
     # What reaches as far as the angles, or stands on the side that they leave free, would tell them on a worksheet.
-    known = (across, ticks, phi, scale, *givens.phases_under(heights))
+    known = (across, ticks, phi, *scale, *givens.phases_under(heights))
     axes = (
         *(*known, replace(up, of=read), replace(name, of=read)),
         *graduation_marks(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm)), of=read),

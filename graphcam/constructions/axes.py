@@ -13,7 +13,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Words, say
 from graphcam.drafting.marks import Arrow, Dimension, Label, Line, Mark, Points, Role, Segments
-from graphcam.drafting.scale import Scale, unit
+from graphcam.drafting.scale import BrokenScale, Scale, unit
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
@@ -33,6 +33,31 @@ SAME_LEVEL = 1e-6
 LEVEL_DIGITS = 9
 """Decimals of a millimetre to which heights are equal but for rounding: a hand that errs makes no two alike."""
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+BROKEN_DWELL = 14.0
+"""A dwell that is broken takes so much of the axis of the cam angle [mm of paper]."""
+MIN_SHORTENED = 6.0
+"""A dwell is broken where this shortens it by so much at least [mm of paper]."""
+
+
+def broken_axis(motion: Motion, per_mm: float) -> Scale:
+    """The scale [rad/mm] of an axis of the cam angle whose long dwells are broken.
+
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, 2.0), gc.Return(30, 2.0), gc.Dwell(FULL_TURN - 4.0)])
+    >>> axis = broken_axis(motion, 0.02)
+    >>> axis.paper([2.0, FULL_TURN]).tolist(), round(axis.left_out, 2)
+    ([100.0, 214.0], 2.0)
+    """
+    angles = np.array([phase.angle for phase in motion.phases])
+    dwells = np.array([phase.kind == "dwell" for phase in motion.phases])
+    broken = dwells & (angles / per_mm >= BROKEN_DWELL + MIN_SHORTENED)
+    if not broken.any():
+        return Scale(per_mm, "rad")
+    places = np.cumsum([0.0, *np.where(broken, BROKEN_DWELL, angles / per_mm)])
+    ends = (*np.asarray(motion.starts).tolist(), FULL_TURN)
+    return BrokenScale(per_mm, "rad", ends, tuple(places.tolist()), tuple(np.flatnonzero(broken).tolist()))
 
 
 class OverStations(Protocol):
@@ -225,7 +250,7 @@ def phase_kind(motion: Motion, k: int) -> str:
 
 def phase_ends(motion: Motion, mu_phi: Scale) -> Floats:
     """Where the phases begin on the axis of the cam angle, and where the turn ends [mm of paper]."""
-    return np.append(motion.starts, FULL_TURN) / mu_phi.per_mm
+    return mu_phi.paper(np.append(motion.starts, FULL_TURN))
 
 
 def height_range(heights: Floats) -> tuple[float, float]:
@@ -253,19 +278,26 @@ def axes_over_phi(
     """
     low, high = height_range(heights)
     right, top = complex(end + AXIS_OVERHANG), (high + AXIS_OVERHANG) * UP
-    scale = say("μᵩ = {mu:.4g} rad/mm ({degrees:.4g}°/mm)", mu=mu_phi.per_mm, degrees=math.degrees(mu_phi.per_mm))
+    # Beside a broken dwell there is no room for it: it stands once, with the degrees under the lowest diagram.
+    scale = () if mu_phi.middles else (Label(complex(end), _scale_text(mu_phi), towards=-1 - 1j, small=True),)
     return (
         *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), ticks or degree_ticks(end, mu_phi)),
         *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j)),
-        Label(complex(end), scale, towards=-1 - 1j, small=True),
+        *scale,
     )
+
+
+def _scale_text(mu_phi: Scale) -> Caption:
+    degrees = math.degrees(mu_phi.per_mm)
+    return say("μᵩ = {mu:.4g} rad/mm ({degrees:.4g}°/mm)", mu=mu_phi.per_mm, degrees=degrees)
 
 
 def phi_axes(motion: Motion, stations: Stations, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
     """The axes of a diagram over one turn of the motion, strokes at the stations, thin lines where the phases end."""
     ends, (low, high) = phase_ends(motion, mu_phi), height_range(heights)
-    x = np.unique(stations.phi) / mu_phi.per_mm
-    ticks = Segments(x + SHORT_TICK * UP, x - SHORT_TICK * UP, Role.SCALE)
+    x, (low_ends, high_ends) = mu_phi.paper(np.unique(stations.phi)), break_strokes(mu_phi)
+    starts, stops = np.append(x + SHORT_TICK * UP, low_ends), np.append(x - SHORT_TICK * UP, high_ends)
+    ticks = Segments(starts, stops, Role.SCALE)
     across, up, *others = axes_over_phi(ends[-1], mu_phi, heights, name, ticks)
     return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *others)
 
@@ -286,7 +318,18 @@ TICKS_ROOM = 2.0
 DEGREES_ROOM = 12.0
 """Numbers of degrees stand at least so far apart [mm of paper]."""
 DEGREE_STEPS = 10, 30, 60, 90
-"""Every so many degrees of the cam angle there may be a stroke, and from the second on a number."""
+"""Every so many degrees of the cam angle there may be a stroke, and a number."""
+
+
+BREAK_GAP, BREAK_STROKE = 0.75, 0.8 + 2.0j
+"""Half the gap between the two strokes of a break, and half of such a stroke [mm of paper]."""
+
+
+def break_strokes(mu_phi: Scale, level: complex = 0j) -> tuple[Points, Points]:
+    """The lower and the upper ends of the two strokes where an axis at this ``level`` is broken [mm of paper]."""
+    middles = np.array(mu_phi.middles)
+    at = np.ravel(middles[:, None] + BREAK_GAP * np.array([-1.0, 1.0])) + level
+    return at - BREAK_STROKE, at + BREAK_STROKE
 
 
 def degree_steps(mu_phi: Scale) -> tuple[int, int]:
@@ -296,8 +339,8 @@ def degree_steps(mu_phi: Scale) -> tuple[int, int]:
     ((10, 30), (10, 60))
     """
     tick, number = (
-        next((n for n in DEGREE_STEPS[first:] if mu_phi.paper(math.radians(n)) >= room), DEGREE_STEPS[-1])
-        for first, room in enumerate((TICKS_ROOM, DEGREES_ROOM))
+        next((n for n in DEGREE_STEPS if math.radians(n) / mu_phi.per_mm >= room), DEGREE_STEPS[-1])
+        for room in (TICKS_ROOM, DEGREES_ROOM)
     )
     return tick, number
 
@@ -309,12 +352,14 @@ def degree_ticks(end: float, mu_phi: Scale) -> Segments:
     """
     tick, number = degree_steps(mu_phi)
     degrees = np.arange(tick, math.degrees(mu_phi.value(end)) + tick / 2, tick)
-    x = np.radians(degrees) / mu_phi.per_mm
+    x = mu_phi.paper(np.radians(degrees))
     return Segments(x + np.where(degrees % number, 0, SHORT_TICK) * UP, x - SHORT_TICK * UP, Role.SCALE)
 
 
 DEGREES_OFFSET, PHASES_OFFSET = 7.0, 26.0
 """So far below the lowest diagram the degrees stand, and the angles of the phases [mm]."""
+SCALE_OFFSET = 7.5
+"""So far below the line of degrees the scale of a broken axis stands [mm]."""
 
 
 def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
@@ -324,12 +369,23 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
     """
     level, (tick, every) = (low - DEGREES_OFFSET) * UP, degree_steps(mu_phi)
     degrees = np.arange(0, math.degrees(mu_phi.value(end)) + tick / 2, tick)
-    x, lengths = np.radians(degrees) / mu_phi.per_mm + level, np.where(degrees % every, TICK, LONG_TICK)
+    degrees = degrees[mu_phi.shows(np.radians(degrees))]
+    x, lengths = mu_phi.paper(np.radians(degrees)) + level, np.where(degrees % every, TICK, LONG_TICK)
     below = ((n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
+    low_ends, high_ends = break_strokes(mu_phi, level)
+    strokes = Segments(np.append(x, low_ends), np.append(x - lengths * UP, high_ends), Role.SCALE)
     return (
-        *(Line(np.array([0.0, end]) + level, Role.SCALE), Segments(x, x - lengths * UP, Role.SCALE)),
+        *(Line(np.array([0.0, end]) + level, Role.SCALE), strokes),
         *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True) for n, at in below),
+        *([Label(level - SCALE_OFFSET * UP, _scale_text(mu_phi), 1 + 0j, small=True)] if mu_phi.middles else []),
     )
+
+
+def broken_angles(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
+    """The angles of the broken dwells, on the graduated line under a diagram that reaches down to ``low`` [mm]."""
+    at = (low - DEGREES_OFFSET + BREAK_STROKE.imag) * UP
+    named = {int(np.searchsorted(motion.starts, mu_phi.value(x), side="right")) - 1: x for x in mu_phi.middles}
+    return tuple(Label(x + at, degrees(motion.phases[k].angle), towards=UP, small=True) for k, x in named.items())
 
 
 def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:

@@ -161,7 +161,8 @@ class Board:
     """What lies on the board of a cam: the task, and the draughtsman's choices.
 
     prime_radius, roller_radius : mm, or None where the task leaves them to be found
-    ordinate, poles : mm of paper; mu_phi : rad/mm, for the pressure angle's axis too
+    ordinate, poles : mm of paper; mu_phi : rad/mm, of the cam angle
+    mu_alpha : rad/mm, of the pressure angle; None where it is that of the cam angle
     min_profile_radius : permitted radius of curvature of the profile under a roller or knife edge [mm]; None for none
     shaft_radius : that a bore takes with its keyway and a wall, inside the profile [mm]; 0 where the task gives none
     rounding : adopted sizes are multiples of it [mm]; None for the largest power of ten below r0/10, at most 1 mm
@@ -193,6 +194,7 @@ class Board:
     min_profile_radius: float | None = None
     shaft_radius: float = 0.0
     finer: Mapping[int, Sequence[float]] = field(default_factory=dict[int, Sequence[float]])
+    mu_alpha: Scale | None = None
 
     @cached_property
     def stations(self) -> Stations:

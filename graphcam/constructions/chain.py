@@ -178,7 +178,9 @@ class Chain(Drawings):
     @DrawnOnce
     def angle_diagram(self) -> Construction:
         """The pressure angle over the cam angle, and its maxima."""
-        return angle_diagram(self.pressure_angle, self.board.mu_phi, self.board.limits, self.pencil)
+        return angle_diagram(
+            self.pressure_angle, self.board.mu_alpha or self.board.mu_phi, self.board.limits, self.pencil
+        )
 
     @DrawnOnce
     def inversion(self) -> Construction:

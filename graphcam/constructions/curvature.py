@@ -178,8 +178,7 @@ def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> C
     )
     hand.read("rho", distance_between(triple[1], o), mu_l)
     hand.read("rho_candidates", distance_between(b, centres), mu_l, "mm")
-    in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)
-    hand.read("phi", calculated_setting(in_radians, phi), 1.0, rounded=False)
+    hand.read("phi", calculated_setting(integrated.givens.mu_phi.value, phi), 1.0, rounded=False)
     return hand.finished(CurvatureGivens(inverted, corner, profile), _draw, {"triple": triple, "centre": o})
 
 
@@ -233,7 +232,9 @@ def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> 
     ends = hand.join("rays to the rests", centre, pitch[last])[each]
     rays = hand.protractor("rays of the rests", centre, ends, -sense(inverted.givens.rotation) * turns)
     axis = hand.earlier_places(integrated.diagram, "axis")
-    beyond = hand.lay_off("rests on the axis", axis[last][each], RIGHT, turns / integrated.mu_phi.per_mm)
+    mu_phi, since = integrated.mu_phi, integrated.stations.phi[last][each]
+    along = mu_phi.paper(since + turns) - mu_phi.paper(since)
+    beyond = hand.lay_off("rests on the axis", axis[last][each], RIGHT, along)
     return hand.cross("rests", rays, arcs[each]), beyond
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from graphcam.constructions.axes import station_names
+from graphcam.constructions.axes import BREAK_GAP, station_names
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.drafting import euclid
 from graphcam.drafting.acts import Drawn
@@ -10,6 +10,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
+from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, stretch_caption
 from graphcam.given.motion import FULL_TURN, MovingPhase
 from graphcam.plane_vectors import dot
@@ -81,7 +82,7 @@ def _dwell_levels(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, 
     ends = [k for span in stations.phases for k in (span.start, span.stop - 1)]
     level = hand.erect("rests", curve.first[[*ends, -1]], RIGHT)
     *places, last = level.points
-    turn = FULL_TURN / givens.mu_phi.per_mm
+    turn = givens.end
     bounds = np.array([last.imag * UP, *places, turn + last.imag * UP]).reshape(-1, 2)
     angles = np.array([0.0, *stations.phi[ends], FULL_TURN]).reshape(-1, 2)
     resting = np.flatnonzero(np.diff(angles)[:, 0] > MIN_DWELL_ANGLE)
@@ -89,5 +90,16 @@ def _dwell_levels(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, 
     before = np.arange(-1, len(ends), 2)[resting] % len(level.points)
     lines = zip(bounds[resting], before, strict=True)
     return level[before], tuple(
-        Line(pair, Role.RESULT, False, of=level.act, index=np.array([k, k])) for pair, k in lines
+        Line(stretch, Role.RESULT, False, of=level.act, index=np.array([k, k]))
+        for pair, k in lines
+        for stretch in _around_breaks(pair, givens.mu_phi)
     )
+
+
+def _around_breaks(pair: Points, mu_phi: Scale) -> list[Points]:
+    """The two stretches of a level line over a broken dwell; one over any other."""
+    breaks = [x for x in mu_phi.middles if pair[0].real < x < pair[1].real]
+    if not breaks:
+        return [pair]
+    left, right = (breaks[0] + side * BREAK_GAP + pair[0].imag * UP for side in (-1, 1))
+    return [np.array([pair[0], left]), np.array([right, pair[1]])]

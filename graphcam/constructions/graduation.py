@@ -17,6 +17,7 @@ from graphcam.constructions.axes import (
     PHASES_OFFSET,
     TICK,
     TICKS_ROOM,
+    break_strokes,
     height_range,
     joined_runs,
 )
@@ -142,14 +143,16 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
     every, lead = round_up(TIME_SPACING * mu_t.per_mm, ROUND_STEPS)
     parts = 4 if lead == 2 else 5
     parts = parts if every / mu_t.per_mm / parts >= TICKS_ROOM else 1
-    counts = np.arange(math.floor(end * mu_t.per_mm / every * parts * (1 + 1e-12)) + 1)
-    whole = counts % parts == 0
-    x = counts * (every / parts / mu_t.per_mm) + level * UP
+    counts = np.arange(math.floor(mu_phi.value(end) / omega / every * parts * (1 + 1e-12)) + 1)
+    turned = counts * (every / parts * omega)
+    counts, turned = counts[mu_phi.shows(turned)], turned[mu_phi.shows(turned)]
+    whole, x = counts % parts == 0, mu_phi.paper(turned) + level * UP
     below = x - np.where(whole, LONG_TICK, TICK) * UP
     named = zip(below[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
+    low_ends, high_ends = break_strokes(mu_phi, level * UP)
     return (
         Line(np.array([0.0, end]) + level * UP, Role.SCALE),
-        Segments(x, below, Role.SCALE),
+        Segments(np.append(x, low_ends), np.append(below, high_ends), Role.SCALE),
         *(Label(at, say("{t:.6g}", t=n * every), towards=-UP, small=True) for at, n in named),
         # The scale stands over the line, in the last phase: beside it there may be another view.
         Label(complex(end, level), say("t, {unit}", unit=unit("s")), 1 + 0j),

@@ -122,7 +122,8 @@ def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
     )
     mu_j = np.asarray(integrated.readings["a"].scale) / (mu_phi.per_mm * pole)
     hand.read("j", distance_between(origin, found, UP), mu_j)
-    hand.read("j_at", distance_between(origin, found, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    along = calculated_setting(mu_phi.value, distance_between(origin, found, RIGHT))
+    hand.read("j_at", along, 1.0, "rad", rounded=False)
     hand.read("max_j", calculated_setting(np.maximum, *ends), mu_j)
     return hand.finished(JerkGivens(integrated, pole), _draw, {"j": found, "curve": curve})
 
@@ -255,7 +256,7 @@ def _arrows(c: DrawnJerk) -> list[Mark]:
     givens, (low, high) = c.givens.integrated.givens, _heights(c).tolist()
     marks = list[Mark]()
     for jump in acceleration_jumps(givens.motion):
-        foot = complex((jump.phi or FULL_TURN) / givens.mu_phi.per_mm)
+        foot = complex(givens.mu_phi.paper(jump.phi or FULL_TURN))
         tip = foot + UP * (high if jump.size > 0 else low)
         marks += [Arrow(foot, tip, Role.LIMIT), Label(tip, "∞", towards=-1 + 0j)]
     return marks

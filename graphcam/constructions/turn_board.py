@@ -2,7 +2,15 @@
 
 from dataclasses import dataclass, field
 
-from graphcam.constructions.axes import degrees_below, height_range, ordinate_title, phase_ends, phases_below, phi_axes
+from graphcam.constructions.axes import (
+    broken_angles,
+    degrees_below,
+    height_range,
+    ordinate_title,
+    phase_ends,
+    phases_below,
+    phi_axes,
+)
 from graphcam.constructions.graduation import times_below
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.scale import Scale
@@ -40,7 +48,7 @@ class TurnGivens:
         """The numbers under a diagram that is the lowest on its page: degrees, and times where there is a speed."""
         low = height_range(heights)[0]
         times = times_below(self.end, self.mu_phi, low, self.omega, phases=False)
-        return (*degrees_below(self.end, self.mu_phi, low), *times)
+        return (*degrees_below(self.end, self.mu_phi, low), *broken_angles(self.motion, self.mu_phi, low), *times)
 
     def phases_under(self, heights: Floats) -> tuple[Mark, ...]:
         """The numbers under the lowest diagram of all: degrees, the angles of the phases, and times."""

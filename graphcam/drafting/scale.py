@@ -8,6 +8,10 @@ import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import check_number
 from graphcam.typed_words import table
@@ -44,18 +48,76 @@ class Scale:
 
     per_mm: float
     unit: str
+    left_out = 0.0
+    """The part of the whole that shortened stretches of an axis leave out."""
 
     def __post_init__(self) -> None:
         limit = say("a finite number of {unit} per mm greater than 0", unit=self.unit)
         check_number("scale", self.per_mm, limit, above=0)
 
-    def value(self, paper: float) -> float:
-        """The machine value of a length on paper: mu times mm."""
+    def value(self, paper: Any) -> Any:
+        """The machine value of a length on paper, or several: mu times mm."""
         return self.per_mm * paper
 
-    def paper(self, value: float) -> float:
-        """The length on paper of a machine value [mm]."""
+    def paper(self, value: Any) -> Any:
+        """The length on paper of a machine value, or several [mm]."""
         return value / self.per_mm
+
+    @property
+    def middles(self) -> list[float]:
+        """The middles of the stretches of an axis that are shortened [mm of paper]."""
+        return []
+
+    def shows(self, values: ArrayLike) -> NDArray[np.bool_]:
+        """Whether values can be read on an axis, outside of its shortened stretches."""
+        return np.ones(np.shape(values), dtype=bool)
+
+
+@dataclass(frozen=True)
+class BrokenScale(Scale):
+    """A scale along an axis of which some stretches are drawn shortened, each between two break strokes.
+
+    Lengths outside of them have the scale ``per_mm``; places are mapped by :meth:`paper` and :meth:`value`, through the
+    ends of all stretches.
+
+    values : (k,) machine values of the ends of the stretches, ascending from 0
+    places : (k,) their places [mm of paper]
+    broken : the stretches that are shortened, by their numbers
+
+    >>> axis = BrokenScale(2.0, "mm", (0.0, 40.0, 140.0, 160.0), (0.0, 20.0, 30.0, 40.0), (1,))
+    >>> axis.paper([40.0, 150.0]).tolist(), axis.value([25.0]).tolist(), axis.middles, axis.left_out
+    ([20.0, 35.0], [90.0], [25.0], 80.0)
+    >>> axis.shows([30.0, 90.0, 140.0]).tolist()
+    [True, False, True]
+    """
+
+    values: tuple[float, ...]
+    places: tuple[float, ...]
+    broken: tuple[int, ...]
+
+    def paper(self, value: Any) -> Any:
+        """The places on paper of machine values."""
+        return np.interp(value, self.values, self.places)
+
+    def value(self, paper: Any) -> Any:
+        """The machine values of places on paper."""
+        return np.interp(paper, self.places, self.values)
+
+    @property
+    def middles(self) -> list[float]:
+        """The middles of the shortened stretches [mm of paper]."""
+        return [(self.places[k] + self.places[k + 1]) / 2 for k in self.broken]
+
+    @property
+    def left_out(self) -> float:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """The part of the whole that the shortened stretches leave out."""
+        return self.values[-1] - self.per_mm * self.places[-1]
+
+    def shows(self, values: ArrayLike) -> NDArray[np.bool_]:
+        """Whether values lie outside the shortened stretches, where they can be read."""
+        at = np.asarray(values)
+        inside = [(at > self.values[k]) & (at < self.values[k + 1]) for k in self.broken]
+        return ~np.any(inside, axis=0)
 
 
 def standard_scale(size: float, room: float, ratios: Ratios) -> Scale:

@@ -114,7 +114,7 @@ def greatest_angles(solution: Solution) -> Iterator[Block]:
     for name, limit, driven in (("rise", board.limits.rise, 1), ("return", board.limits.return_, -1)):
         if other := inner_maximum(plotted, name):
             alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
-            phi = math.degrees(other.place.real * board.mu_phi.per_mm)
+            phi = math.degrees(board.mu_phi.value(other.place.real))
             yield INSIDE_CAPTIONS[name].with_values(at=number(phi, 1), alpha=number(alpha))
         if limit is None:
             continue

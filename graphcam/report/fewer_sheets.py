@@ -1,5 +1,6 @@
-"""Smaller diagrams with which a task needs fewer sheets, where it leaves the ordinate and the poles open.
+"""What would make the sheets of a task better: smaller diagrams on fewer sheets, or a format with wider parts.
 
+The ordinate and the poles count where the task leaves them open.
 They are chosen as large as their format suits, without a look at what else stands on the sheets: so a sheet may be left
 half empty by a diagram that is a little too high.
 """
@@ -7,6 +8,7 @@ half empty by a diagram that is a little too high.
 import math
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import get_args
 
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, VELOCITY
@@ -15,9 +17,17 @@ from graphcam.errors import DesignError
 from graphcam.report.sheet_contents import Contents, scaled_steps
 from graphcam.sheets.layout import SheetPart, fewest_pages, views_of_pages
 from graphcam.sheets.page_filling import ONE_PAGE
-from graphcam.solving.diagram_sizes import DEFAULT_POLE, STANDARD_ORDINATES, STANDARD_POLES
+from graphcam.solving.arcs_solution import AnySolution
+from graphcam.solving.diagram_sizes import (
+    DEFAULT_POLE,
+    NARROW_PART_WIDTH,
+    STANDARD_ORDINATES,
+    STANDARD_POLES,
+    narrowest_part,
+)
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import board_of, format_of
+from graphcam.tasks.sheet_tables import Format
 from graphcam.tasks.task import DrawingTable, Task
 
 PROJECTED_VIEWS = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name
@@ -66,6 +76,35 @@ def fewer_sheets(contents: Contents, pages: int) -> Caption | None:
     if not tables or (said := _suggestion(contents, solution.task, now, tables[-1])) is None:
         return None
     return next(filter(None, (_suggestion(contents, solution.task, now, tried) for tried in tables[:-1])), said)
+
+
+WIDER_PARTS_NOTE = say(
+    "The narrowest parts are {width:.1f} mm wide on {format}, which is little for a hand; on {larger} they are "
+    "{wider:.1f} mm wide."
+)
+
+
+def wider_parts(solution: AnySolution) -> Caption | None:
+    """The next format on which the parts of the phases are wide enough to be drawn by hand; None where they are.
+
+    >>> import graphcam as gc
+    >>> from graphcam.report.fewer_sheets import wider_parts
+    >>> task = gc.builtin_task("sizing")
+    >>> print(wider_parts(gc.solve(replace(task, drawing=task.drawing.on("A4")))))
+    The narrowest parts are 2.9 mm wide on A4, which is little for a hand; on A3 they are 4.4 mm wide.
+    """
+    if not isinstance(solution, Solution):
+        return None
+    now, drawing = solution.chain.board, solution.task.drawing
+    narrow = narrowest_part(now.stations)
+    if (width := narrow / now.mu_phi.per_mm) >= NARROW_PART_WIDTH:
+        return None
+    formats = get_args(Format)
+    for larger in reversed(formats[: formats.index(drawing.format)]):
+        there = board_of(replace(solution.task, drawing=replace(drawing.on(larger), whole_turn=False)))
+        if (wider := narrow / there.mu_phi.per_mm) >= NARROW_PART_WIDTH:
+            return WIDER_PARTS_NOTE.with_values(width=width, format=drawing.format, larger=larger, wider=wider)
+    return None
 
 
 def _suggestion(contents: Contents, task: Task, now: _PageCounts, tried: DrawingTable) -> Caption | None:

@@ -233,7 +233,7 @@ def _iso(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> Form:
         # The outer sides are bold already.
         thin += [(left, bottom, right, bottom)] if bottom else []
         thin += [(left, bottom, left, top)] if left else []
-        texts += fitted_text(tell(caption), (left, top - 3.6, right, top - 0.2), NARROW_CAPTION_HEIGHT, align="left")
+        texts += fitted_text(tell(caption), (left, top - 3.9, right, top - 0.5), NARROW_CAPTION_HEIGHT, align="left")
         height = 5.0 if name == "name" else 3.5
         texts += entry(title, name, (left, bottom, right, top - 3.2), height) if name else []
     texts += fitted_text(f"{sheet}/{sheets}", (164, 0, 180, 9 - 3.2), 3.5)

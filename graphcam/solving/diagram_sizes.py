@@ -11,8 +11,11 @@ from itertools import count, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.constructions.axes import broken_axis
+from graphcam.drafting.scale import Scale
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion, MovingPhase
+from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
+from graphcam.given.stations import Stations
 
 STANDARD_ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
 """Ordinates that are chosen from [mm of paper]."""
@@ -34,6 +37,40 @@ PHASE_SAMPLES = 361
 PIECE_SAMPLES = 9
 """The number of further samples of a piece of a law that lies between few of these, its middle among them."""
 SHORT_PIECE = PIECE_SAMPLES / PHASE_SAMPLES
+
+
+MIN_PART_WIDTH, NARROW_PART_WIDTH = 5.0, 4.0
+"""Parts of a phase are so wide where the usual axis has room, and so wide where the page has it [mm of paper]."""
+FINER_AXES = (2.5, 2.0, 1.5, 1.25, 1.0, 0.8, 0.75, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.125, 0.1)
+"""Scales of a cam angle whose long dwells are broken [degrees/mm]."""
+
+
+def narrowest_part(stations: Stations) -> float:
+    """The smallest part of a phase that is drawn [rad]; infinite where nothing moves but in jumps."""
+    return float(np.diff(stations.phi)[stations.left][~stations.blows].min(initial=math.inf))
+
+
+def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: float) -> Scale:
+    """The scale of the cam angle [rad/mm]: the usual one, or a finer one with broken dwells where parts were narrow.
+
+    usual : degrees/mm, for a whole turn;  longest : that the axis and its usual pole may be on a page [mm of paper]
+    """
+    least = narrowest_part(stations)
+    whole = Scale(math.radians(usual), "rad")
+    if whole.paper(least) >= MIN_PART_WIDTH * (1 - SAME_WIDTH):
+        return whole
+    finer = [broken_axis(motion, math.radians(each)) for each in (usual, *FINER_AXES) if each <= usual]
+    lengths = [(axis, float(axis.paper(FULL_TURN)), math.radians(DEFAULT_POLE) / axis.per_mm) for axis in finer]
+    usual_room = [axis for axis, length, _ in lengths if length <= whole.paper(FULL_TURN) * (1 + SAME_WIDTH)] or [whole]
+    page = [axis for axis, length, pole in lengths if length + pole <= longest] or usual_room
+    for axes, width in ((usual_room, MIN_PART_WIDTH), (usual_room, NARROW_PART_WIDTH), (page, NARROW_PART_WIDTH)):
+        if wide := [axis for axis in axes if least / axis.per_mm >= width * (1 - SAME_WIDTH)]:
+            return wide[0 if width == MIN_PART_WIDTH or axes is page else -1]
+    return usual_room[-1]
+
+
+SAME_WIDTH = 1e-9
+"""Widths that differ by less than this part are equal."""
 
 
 @dataclass(frozen=True)
@@ -66,14 +103,15 @@ class DrawnHeights:
     >>> import graphcam as gc
     >>> slow, steep = gc.Return(30, 4 * pi / 3, "3-4-5"), gc.Return(30, pi / 4, "3-4-5")
     >>> room, page = DiagramRoom(2.0, a=90.0, v=75.0, s=40.0), DiagramRoom(2.0, a=162.0, v=162.0, s=162.0)
-    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), 2.0).choose(room, page)
+    >>> mu_phi = Scale(math.radians(2.0), "rad")
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), mu_phi).choose(room, page)
     (40.0, (20.0, 40.0))
-    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), 2.0).choose(room, page)
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), mu_phi).choose(room, page)
     (1.5, (12.0, 15.0))
     """
 
     motion: Motion
-    degrees_per_mm: float
+    mu_phi: Scale
 
     @cached_property
     def values(self) -> tuple[Floats, Floats, Floats]:
@@ -83,13 +121,18 @@ class DrawnHeights:
     @property
     def turn(self) -> float:
         """How long the axis of the cam angle is."""
-        return 360.0 / self.degrees_per_mm
+        return float(self.mu_phi.paper(FULL_TURN))
+
+    @property
+    def degrees_per_mm(self) -> float:
+        """The scale of the cam angle."""
+        return math.degrees(self.mu_phi.per_mm)
 
     @cached_property
     def unit(self) -> tuple[float, float, float]:
         """Acceleration, velocity and displacement at an ordinate and poles of 1 mm."""
         _, mu_a = self.motion.reference
-        mu_phi = math.radians(self.degrees_per_mm)
+        mu_phi = self.mu_phi.per_mm
         s, v, a = map(_height, self.values)
         # mu_v = mu_a mu_phi H1, mu_s = mu_v mu_phi H2.
         return a / mu_a, v / (mu_a * mu_phi), s / (mu_a * mu_phi**2)
@@ -99,6 +142,14 @@ class DrawnHeights:
         (a, v, s), (first, second) = self.unit, poles
         # Where the velocity jumps in every phase, no acceleration is drawn.
         return min(most.a / a if a else math.inf, most.v * first / v, most.s * first * second / s)
+
+    def fit(self, most: DiagramRoom, ordinate: float, poles: tuple[float, float]) -> bool:
+        """Whether an ordinate and poles leave diagrams within a room."""
+        return max(poles) <= most.pole and ordinate <= self.largest_ordinate(most, poles)
+
+    def displacement(self, ordinate: float, poles: tuple[float, float]) -> float:
+        """How high the displacement is drawn."""
+        return ordinate * self.unit[2] / (poles[0] * poles[1])
 
     def choose(
         self,
@@ -125,7 +176,7 @@ class DrawnHeights:
         phase, u = _places(self.motion)
         sides = np.concatenate([self.motion.at(phase, u, side)[3] for side in ("right", "left")])
         # A pole of 1 mm cuts off the slope of the acceleration on paper.
-        height = _height(sides) * math.radians(self.degrees_per_mm) / mu_a
+        height = _height(sides) * self.mu_phi.per_mm / mu_a
         longest = min(MAX_POLE_SHARE * self.turn, room.pole)
         return next(pole for pole in _jerk_poles(longest) if pole * height <= room.v)
 

@@ -18,6 +18,7 @@ from graphcam.constructions.graduation import SYMBOLS, scale_at_speed, time_scal
 from graphcam.constructions.working_profile import low_dwells
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import BrokenScale
 from graphcam.errors import DesignError
 from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
@@ -195,8 +196,16 @@ class Solution(ShownSolution):
         readings, (factor, unit) = self.chain["integration"].readings, self._lift
         scales = {name: readings[name].per_mm for name in ("s", "v", "a")}
         third = self.drawn["jerk"].readings["j"] if "jerk" in self.drawn else None
+        mu_phi = self.chain.board.mu_phi
+        # Of a broken axis the places where its stretches end, from which any cam angle on it is interpolated.
+        ends = zip(mu_phi.values, mu_phi.places, strict=True) if isinstance(mu_phi, BrokenScale) else ()
+        broken = [{"phi_deg": round(math.degrees(phi), 9), "paper": round(place, 9)} for phi, place in ends]
         return {
-            "phi": {"per_mm": math.degrees(self.chain.board.mu_phi.per_mm), "unit": "deg"},
+            "phi": {
+                "per_mm": math.degrees(mu_phi.per_mm),
+                "unit": "deg",
+                **({"broken_axis": broken} if broken else {}),
+            },
             "s": {"per_mm": factor * scales["s"], "unit": unit},
             "v": {"per_mm": scales["v"], "unit": readings["v"].unit},
             "a": {"per_mm": scales["a"], "unit": readings["a"].unit},

@@ -24,12 +24,20 @@ from graphcam.drafting.scale import (
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, omega_of, sense
 from graphcam.given.limits_and_fits import shaft_radius
+from graphcam.given.stations import divide
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
 from graphcam.sheets.page_space import free_rooms
-from graphcam.solving.diagram_sizes import STANDARD_POLES, DiagramRoom, DrawnHeights, over_the_turn
+from graphcam.solving.diagram_sizes import (
+    DEFAULT_POLE,
+    STANDARD_POLES,
+    DiagramRoom,
+    DrawnHeights,
+    cam_angle_scale,
+    over_the_turn,
+)
 from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task import (
     DrawingTable,
@@ -83,9 +91,23 @@ def board_of(task: Task) -> Board:
     follower = drawn_follower(task.follower, task)
     room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
     room = room.beside_jerk if drawing.jerk else room
-    heights = DrawnHeights(motion, room.degrees_per_mm)
-    ordinate, poles = heights.choose(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
-    board = Board(
+    divisions, at_corners = drawing.divisions or USUAL_DIVISIONS, follower.divides_at_corners or drawing.jerk
+    divided = partial(divide, motion, divisions, at_corners=at_corners)
+    finer = {} if drawing.divisions else finer_parts(motion, divisions, lambda finer: divided(finer=finer))
+    mu_phi = mu_alpha = Scale(math.radians(room.degrees_per_mm), "rad")
+    if not drawing.whole_turn and task.motion.phases:
+        mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest_axis(drawing))
+    heights, given = DrawnHeights(motion, mu_phi), (drawing.ordinate, drawing.poles)
+    most = page_room(task, heights, follower)
+    if mu_phi != mu_alpha:
+        # The displacement is no higher than at the usual scale, so that the combined diagram keeps to its room.
+        usual, page = DrawnHeights(motion, mu_alpha), most
+        most = replace(page, s=min(page.s, usual.displacement(*usual.choose(room, page, *given))))
+        if any(given) and not heights.fit(page, *heights.choose(room, most, *given)):
+            # Given sizes may suit the whole turn alone.
+            mu_phi, heights, most = mu_alpha, usual, page_room(task, usual, follower)
+    ordinate, poles = heights.choose(room, most, *given)
+    return Board(
         motion=motion,
         follower=follower,
         rotation=task.rotation,
@@ -95,18 +117,17 @@ def board_of(task: Task) -> Board:
         roller_rule=task.roller_terms,
         min_profile_radius=task.limits.min_curvature_radius if "roller" in follower.constructions else None,
         shaft_radius=0.0 if part is None or part.bore is None else shaft_radius(part.bore, part.keyway != "none"),
-        divisions=drawing.divisions or USUAL_DIVISIONS,
+        divisions=divisions,
         ordinate=ordinate,
         poles=poles,
-        mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
+        mu_phi=mu_phi,
+        mu_alpha=mu_alpha,
+        finer=finer,
         rounding=drawing.rounding,
         omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
         paper=profile_paper(drawing) if scale is None else replace(profile_paper(drawing), held={PROFILE.name: scale}),
         jerk_pole=heights.jerk_pole(room, ordinate) if drawing.jerk else None,
     )
-    if drawing.divisions is not None:
-        return board
-    return replace(board, finer=finer_parts(motion, board.divisions, partial(board.divided, board.divisions)))
 
 
 def given_profile_scale(drawing: DrawingTable) -> float | None:
@@ -193,13 +214,28 @@ POLE_MARGIN = 24.0
 """What stands to the left of a pole, and to the right of a turn."""
 
 
+BROKEN_AXIS_MARGIN = 38.0
+"""What stands beside a pole and a broken axis, with its graduations and letters [mm of paper]."""
+
+
+def longest_axis(drawing: SheetTable) -> float:
+    """The room of a page for a pole and the axis of the cam angle, without what stands beside [mm]."""
+    return max(width for width, _ in free_rooms(format_of(drawing))) - BROKEN_AXIS_MARGIN
+
+
 def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> DiagramRoom:
     """What no diagram may exceed, for no page of the format would take it.
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
     beside = heights.turn + POLE_MARGIN
-    diagram = max(papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0)), key=lambda paper: paper.height)
+    wide = papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0))
+    if heights.mu_phi.middles:
+        # Beside a finer axis the usual pole is longer: a page with room for it is preferred.
+        room = heights.turn + BROKEN_AXIS_MARGIN
+        if wider := papers(task.drawing, complex(room + DEFAULT_POLE / heights.degrees_per_mm, 0.0)):
+            beside, wide = room, wider
+    diagram = max(wide, key=lambda paper: paper.height)
     size = follower.extent(heights.values, task.limits(), task.rotation, task.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
     free = [complex(paper.width, paper.height) - DIAGRAM_MARGINS for paper in papers(task.drawing, DIAGRAM_MARGINS)]
@@ -234,7 +270,7 @@ def check_given_sizes(task: Task, times: float = 1.0) -> None:
     """
     drawing, board = task.drawing, board_of(task)
     sheet, larger = format_of(drawing).description, say("take a larger format, or leave it out")
-    heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
+    heights = DrawnHeights(board.motion, board.mu_phi)
     most = page_room(task, heights, board.follower)
     for k, pole in enumerate(drawing.poles or ()):
         if pole > times * most.pole:

@@ -224,7 +224,9 @@ def _cached_solution(task: str, spoken: str, kept: str, station: int | None) -> 
     given, pencil, hold = task_in(data, spoken), pencil_in(data), hold_of(held) if held else DragHold()
     if isinstance(given, ArcsTask):
         return solve_arcs(given, pencil, hold.scales)
-    board = held_board(board_of(given), given, hold)
+    # Its page is dragged by the scale of the cam angle, as worksheets are read by it.
+    whole = replace(given, drawing=replace(given.drawing, whole_turn=True))
+    board = held_board(board_of(whole), given, hold)
     check_heights(board)
     return solved_on(board if station is None else replace(board, station=station), given, pencil)
 
@@ -236,8 +238,8 @@ def check_heights(board: Board) -> None:
     ------
     DesignError : one of them is
     """
-    (first, second), degrees = board.poles, math.degrees(board.mu_phi.per_mm)
-    a, v, s = (board.ordinate * height for height in DrawnHeights(board.motion, degrees).unit)
+    first, second = board.poles
+    a, v, s = (board.ordinate * height for height in DrawnHeights(board.motion, board.mu_phi).unit)
     if (highest := max(a, v / first, s / (first * second))) > MAX_HEIGHT:
         largest = board.ordinate * MAX_HEIGHT / highest
         limit = say(

@@ -339,6 +339,8 @@ class DrawingTable(SheetTable):
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     profile_scale : a standard scale at which the cam's profile is drawn; left out: the largest that
         suits the sheet
+    whole_turn : whether the diagrams show the whole turn to scale; left out: long dwells are broken and the scale is
+        finer where parts would be narrower than 5 mm
     """
 
     divisions: Annotated[Divisions | None, say("Divisions of a phase"), Fixed(4, 36, 1)] = None
@@ -353,6 +355,7 @@ class DrawingTable(SheetTable):
     rounding: Size | None = None
     jerk: bool = False
     profile_scale: str | None = None
+    whole_turn: bool = False
 
     def on(self, format_: Format) -> Self:
         """The table for another format; ordinate, poles and scale are left open, as the given ones suit this one.

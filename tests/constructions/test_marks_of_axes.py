@@ -79,7 +79,7 @@ def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest
 
 
 ROOM = over_all(
-    ("scale", "tick", "every"), [(DEGREE, 10, 30), (HALF_A_DEGREE, 10, 30), (TWO_AND_A_HALF, 10, 60), (SIX, 30, 90)]
+    ("scale", "tick", "every"), [(DEGREE, 10, 30), (HALF_A_DEGREE, 10, 10), (TWO_AND_A_HALF, 10, 60), (SIX, 30, 90)]
 )
 
 

@@ -81,7 +81,7 @@ def test_every_note_is_well_formed(name):
     [
         # closure: 4 h/60^2 over 4 h/80^2 times 50 mm
         "= 88.89\\ \\text{mm}.$$",
-        "$$\\mu_\\varphi = \\frac{2\\pi}{360.00} = 0.017453\\ \\text{rad/mm}.$$",
+        "$$\\mu_\\varphi = \\frac{360^\\circ}{360.00}\\cdot\\frac{\\pi}{180^\\circ} = 0.017453\\ \\text{rad/mm}.$$",
         # v = 2h/F = 42.97 at half the lift: 42.97 - 15 tan 30 = 34.31
         "\\ge 42.97 - 15.00\\tan 30^\\circ = 34.31\\ \\text{mm}.$$",
         "$$r_0 = \\sqrt{s_0^2 + e^2}, \\tag{9}$$",

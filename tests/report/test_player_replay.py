@@ -27,7 +27,7 @@ pytestmark = pytest.mark.slow
 
 REACHED = 2e-5
 """mm or rad: the page writes numbers to 9 decimals, which crossings at a degree enlarge."""
-BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
+BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured", "sizing")}
 TASKS = BUILT_IN | {"arcs": gc.builtin_arcs_task()}
 SHOWN = range(0, 30, 10)
 RANDOM = {

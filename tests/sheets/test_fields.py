@@ -200,7 +200,7 @@ def test_captions_and_entries_of_the_iso_block_stand_in_their_fields():
     assert set(entries) == set(ISO_ENTRIES)
     for caption, field in ISO.items():
         assert captions[caption].at.real == field[0] + 1.0
-        assert centre(captions[caption]).imag == pytest.approx(field[3] - 1.9, abs=1e-9)
+        assert centre(captions[caption]).imag == pytest.approx(field[3] - 2.2, abs=1e-9)
         assert captions[caption].height <= 1.8
         assert inside(captions[caption], field)
     for name, caption in ISO_ENTRIES.items():

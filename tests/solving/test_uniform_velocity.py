@@ -94,8 +94,8 @@ def test_a_cam_of_a_first_course_is_drawn_within_its_bounds_and_warned_of(name):
     assert all(str(part.caption) for step in steps for part in step.parts)
     marks = [mark for step in found.drawn["acceleration"].steps() for mark in step.marks]
     feet = {round(mark.start.real, 6) for mark in marks if isinstance(mark, Arrow) and mark.start.real >= 0}
-    mu_phi = found.chain.board.mu_phi.per_mm
-    assert {round(jump.phi / mu_phi, 6) for jump in jumps} <= feet
+    mu_phi = found.chain.board.mu_phi
+    assert {round(mu_phi.paper(jump.phi), 6) for jump in jumps} <= feet
     assert sum(isinstance(mark, Label) and mark.text == "∞" for mark in marks) >= len(jumps)
     assert found.to_dict()["warnings"]
 

@@ -39,7 +39,8 @@ def fill_in(exercise: Exercise, parameters: Mapping[str, Value], path: str = "")
     phases = table.get("motion", {}).get("phases", [])
     taken = sum(phase["angle"] for phase in phases if isinstance(phase.get("angle"), int | float))
     task = task_of(path, _filled_template(table, {REMAINING_ANGLE: 360 - taken}, path))
-    drawing = replace(task.drawing, language=exercise.language)
+    # A photograph is read by the scale of the cam angle.
+    drawing = replace(task.drawing, language=exercise.language, whole_turn=True)
     return replace(task, drawing=MarkedDrawing.of(drawing) if exercise.paper else drawing)
 
 
