@@ -338,3 +338,11 @@ def test_solve_says_what_was_adopted_and_where_it_comes_from(run, tmp_path):
     # What to open first stands last, where one looks.
     assert said.splitlines()[-1].startswith("Open first")
     assert "adopted" not in run("solve", "cam.toml", "--out", "out", "--worksheet").stdout
+
+
+@pytest.mark.parametrize("said", [["--pencil", "0,2"], ["--pencil", "0.2mm"], ["--seeds", "4"]])
+def test_a_wrong_option_is_told_in_the_language_of_the_task(run, tmp_path, said):
+    (tmp_path / "cam.toml").write_text('[drawing]\nlanguage = "ru"\n')
+    result = run("solve", str(tmp_path / "cam.toml"), *said)
+    assert result.exit_code == INPUT_ERROR_STATUS
+    assert "а должно быть" in result.stderr

@@ -7,12 +7,14 @@ from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from dataclasses import fields
 from inspect import unwrap
+from itertools import pairwise
+from pathlib import Path
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
 from typer.core import TyperGroup
 
-from graphcam.cli.command_language import translated
+from graphcam.cli.command_language import translated, voice
 from graphcam.errors import DesignError, choice_limit
 from graphcam.typed_words import meant
 from graphcam.words import Words, bare_caption, say
@@ -52,8 +54,21 @@ def _told(words: tuple[str, ...]) -> Generator[None]:
         said: Any = error
         if type(said).__name__ == "NoArgsIsHelpError":
             raise
+        _adopt_language(words)
         typer.echo(f"graphcam: {translated(_error(said, words))}", err=True)
         raise typer.Exit(INPUT_ERROR_STATUS) from None
+
+
+def _adopt_language(words: tuple[str, ...]) -> None:
+    """Speak the language that the options ask for, else that of the task that is named."""
+    from graphcam.cli.shared import language_in
+
+    for option, value in pairwise(words):
+        if option == "--language":
+            voice().choose(value)
+    for word in words:
+        if Path(word).suffix == ".toml" and Path(word).is_file():
+            voice().adopt_language(language_in(Path(word)))
 
 
 def _error(error: Any, words: tuple[str, ...]) -> DesignError:

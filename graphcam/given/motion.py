@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
 import math
-import sys
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -47,8 +47,8 @@ class DegreesWarning(UserWarning):
 @cache
 def _warn_of_degrees() -> None:
     """Tell once that cam angles are radians, with the user's line."""
-    frame, level = sys._getframe(), 1
-    while frame.f_back and frame.f_globals["__name__"].startswith("graphcam."):
+    frame, level = inspect.currentframe(), 1
+    while frame and frame.f_back and frame.f_globals["__name__"].startswith("graphcam."):
         frame, level = frame.f_back, level + 1
     told = "cam angles are radians here; a whole number beyond 2 pi looks like degrees: write gc.cam_angle(60) for 60°"
     warnings.warn(told, DegreesWarning, stacklevel=level)

@@ -83,7 +83,9 @@ def _axis(name: str, value: Any) -> NDArray[Any]:
     if not len(value):
         raise DesignError(name, say("an empty list"), say("at least one"))
     words = not isinstance(value[0], int | float | np.number)
-    if name in SIZE_NAMES and not all(isinstance(each, NUMBER_TYPES) and np.ndim(each) == 0 for each in value):
+    if name in SIZE_NAMES and not all(
+        isinstance(each, NUMBER_TYPES) and not np.shape(np.asarray(each)) for each in value
+    ):
         raise DesignError(name, say("no number"), say("a number, a list of numbers, or a range"))
     found = np.empty(len(value), dtype=object) if words else np.asarray(value, dtype=np.float64)
     if words:

@@ -143,18 +143,10 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[
     if place is None or (place[1] is None and not text.strip()):
         return 1, TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example), ""
     lines = text.split("\n")
-    if (opened := _open_list(lines, int(place[1]))) if place[1] else 0:
-        told = (
-            say("line {number}: the list", number=opened),
-            say("open"),
-            say("closed by ]"),
-            say("write ] behind its end"),
-        )
-        return (
-            opened,
-            TaskError(path, *told),
-            "\n".join([*lines[: int(place[1]) - 1], "]", *lines[int(place[1]) - 1 :]]),
-        )
+    if opened := _open_list(lines, int(place[1] or 0)):
+        end, what = int(place[1]) - 1, say("line {number}: the list", number=opened)
+        told = TaskError(path, what, say("open"), say("closed by ]"), say("write ] behind its end"))
+        return opened, told, "\n".join([*lines[:end], "]", *lines[end:]])
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
     where = say("line {number}", number=number)
@@ -192,7 +184,7 @@ _OPEN_TEXT_PATTERN = re.compile(r'"([^\s",}]+)(?=\s*[,}]|\s*$)')
 
 def _open_list(lines: list[str], number: int) -> int:
     """The line of the list that is still open where a table begins; 0 if there is none."""
-    if not _TABLE_PATTERN.fullmatch(lines[number - 1]):
+    if not 0 < number <= len(lines) or not _TABLE_PATTERN.fullmatch(lines[number - 1]):
         return 0
     open_lists = list[int]()
     for k, line in enumerate(lines[: number - 1], 1):

@@ -100,9 +100,9 @@ def test_bodies_that_end_differ_from_half_spaces_the_more_the_wider_they_touch()
         ({"width": 0.0}, "width"),
         ({"radius1": -10.0}, "pair of radii"),
         ({"radius2": 0.0}, "radius2"),
-        ({"young": -1.0}, "young1"),
-        ({"poisson": 0.5}, "poisson"),
-        ({"poisson": math.nan}, "poisson"),
+        ({"young1": -1.0}, "young1"),
+        ({"poisson1": 0.5}, "poisson1"),
+        ({"poisson1": math.nan}, "poisson1"),
         ({"parts": 3}, "parts"),
     ],
 )
