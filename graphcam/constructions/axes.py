@@ -256,7 +256,7 @@ def axes_over_phi(
     scale = say("μᵩ = {mu:.4g} rad/mm ({degrees:.4g}°/mm)", mu=mu_phi.per_mm, degrees=math.degrees(mu_phi.per_mm))
     return (
         *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), ticks or degree_ticks(end, mu_phi)),
-        *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j)),
+        *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j, axis=True)),
         Label(complex(end), scale, towards=-1 - 1j, small=True),
     )
 
@@ -273,8 +273,9 @@ def phi_axes(motion: Motion, stations: Stations, mu_phi: Scale, heights: Floats,
 def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
     """A pole to the left on the axis, its distance [mm] set down below the lowest of the rays' ``heights`` there."""
     named, below = say("H{index} = {pole:.6g}", index=index, pole=distance), -5.0 + height_range(heights)[0]
+    level = Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act, spare=True)
     return (
-        *(Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act), pole.dots(), pole.label(f"P{index}", -1 + 1j)),
+        *(level, pole.dots(), pole.label(f"P{index}", -1 + 1j)),
         Dimension(pole.place, 0j, named, below, of=pole.act),
     )
 
@@ -328,7 +329,7 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
     below = ((n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
     return (
         *(Line(np.array([0.0, end]) + level, Role.SCALE), Segments(x, x - lengths * UP, Role.SCALE)),
-        *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True) for n, at in below),
+        *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True, axis=True) for n, at in below),
     )
 
 

@@ -3,12 +3,12 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import blake2b
 from itertools import chain
 
 from graphcam.drafting.ink import Step
-from graphcam.drafting.marks import AngleMark, Dimension, Label
+from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Role
 from graphcam.errors import DesignError
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import held_places, label_places, places_of, shading_parted, with_texts
@@ -29,6 +29,10 @@ INDEX_HEIGHT_SHARE = math.sqrt(0.5)
 """The height of an index, in heights of its letter."""
 HEIGHT_STEP = 0.25
 """Letters grow in steps, so that they do not change with every pixel [mm]."""
+LINE_ROOM, NUMBER_ROOM = 1.6, 3.8
+"""Numbers of a plain view stand at least so far apart, one over another and side by side, in heights of a letter."""
+PLAIN_ROLES = Role.SCALE, Role.RESULT, Role.LIMIT
+"""Lines of a plain view."""
 EMPTY_FRAME = Box(0.0, 0.0, 1.0, 1.0)
 """The frame of a view in which nothing is drawn."""
 
@@ -96,6 +100,7 @@ def drawn_view(
     DesignError : it is larger than any sheet; while it is held nothing depends on how large it is
     """
     letters = screen_letters(paper, max(asked.px_per_mm, 0.01), asked.letter_px)
+    steps = [replace(each, step=_plain(each.step, letters.small)) for each in steps] if asked.plain else steps
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
     former = held.labels if held else {}
@@ -113,6 +118,25 @@ def _expanded(step: Step, letters: Lettering, tell: Tell, *, labelled: bool) -> 
     """What a step draws.  A view of the studio stands alone, so the numbers of an axis stand under it."""
     entities, writings = expand((*step.marks, *step.under), Placement(0j), letters, tell)
     return entities, writings if labelled else []
+
+
+def _plain(step: Step, letter: float) -> Step:
+    """The step without its construction: axes with one graduation, results and limits.
+
+    letter : the height of the numbers [mm]; of those along an axis only so many are kept that they find room
+    """
+    kept, numbered = list[Mark](), list[complex]()
+    for mark in sorted(step.marks, key=lambda mark: abs(mark.at.imag) if isinstance(mark, Label) else 0.0):
+        if mark.spare or not (mark.axis if isinstance(mark, Label) else getattr(mark, "role", None) in PLAIN_ROLES):
+            continue
+        if isinstance(mark, Label) and mark.small:
+            # Each axis has a number at least where it meets the other one.
+            apart = [mark.at - other for other in (complex(mark.at.real), *numbered) if other != mark.at]
+            if any(abs(d.imag) < LINE_ROOM * letter and abs(d.real) < NUMBER_ROOM * letter for d in apart):
+                continue
+            numbered.append(mark.at)
+        kept.append(mark)
+    return replace(step, marks=tuple(kept), under=())
 
 
 def label_names(named: NamedStep) -> list[str]:
@@ -150,4 +174,5 @@ def digest(svg: str) -> str:
 
 def key_of(asked: AskedView) -> str:
     """What a view is kept by: with and without labels it has different frames."""
-    return asked.name if asked.labelled else f"{asked.name}, small"
+    kind = ", plain" if asked.plain else "" if asked.labelled else ", small"
+    return asked.name + kind
