@@ -6,8 +6,10 @@ from html import unescape
 
 import pytest
 from studio_pages import settled, task_of
+from studio_tasks import plain_task
 
 from graphcam.studio.studio_page import SCRIPT_FILES, page as page_of
+from graphcam.studio.worker_page import first_answer
 
 pytestmark = pytest.mark.slow
 
@@ -188,13 +190,13 @@ def test_another_builtin_task_takes_the_place_of_this_one(opened):
     assert task_of(page)["follower"]["kind"] == "translating"
 
 
-def test_a_first_picture_is_there_before_the_engine_answers(opened, served):
-    page = opened()
-    first = page.evaluate("() => JSON.parse(JSON.stringify(studio.shown))")
+def test_a_first_picture_is_there_before_the_engine_answers(opened):
+    first = first_answer(plain_task("coursework"), "en")
     # The page around it is not there to answer.
-    page = opened(config={"first": first, "transport": "parent", "id": "one"}, settle=False)
-    page.wait_for_selector("#steps > g")
-    assert page.locator("#steps > g").count() == 8
+    config = {"first": first, "transport": "parent", "id": "one", "opening": "mechanism"}
+    page = opened(config=config, settle=False, reduced_motion="reduce")
+    page.wait_for_selector("#scene .cam")
+    assert page.locator("#steps-beside > g").count() == sum(len(view["order"]) for view in first["views"])
     assert page.locator("#told-limits").inner_text() == "All limits are satisfied"
 
 

@@ -112,7 +112,7 @@
 
   const clicks = {
     undo: () => page.travel("undo"), redo: () => page.travel("redo"), pin: togglePin, theme: switchTheme, fit,
-    closer: () => zoom(1.25), farther: () => zoom(0.8), panes: () => now().board || state.set({ beside: page.beside().length ? "" : null }),
+    closer: () => zoom(1.25), farther: () => zoom(0.8), panes: () => now().board || state.set({ beside: page.beside().length ? "" : now().beside === null ? "diagrams" : null }),
     all: () => now().hidden.includes("board") || state.set({ board: !now().board }), previous: page.back, next: page.on, play: page.turn,
   };
   for (const [id, act] of Object.entries(clicks)) at(id).addEventListener("click", () => act());

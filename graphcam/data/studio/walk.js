@@ -29,7 +29,8 @@ function walkOf(page) {
   // Names of the views beside one, none where it stands alone: as chosen, or as belongs to it.
   function beside(main = view()) {
     const { beside: chosen, board } = now();
-    if (!main || board || chosen === "") return [];
+    // On a phone a construction has all of the room, until something is chosen.
+    if (!main || board || chosen === "" || (chosen === null && page.phone.matches && !["mechanism", "profile"].includes(main))) return [];
     const there = (names) => names.filter((name) => name !== main && (last.names ? isThere(name) : name !== "mechanism"));
     const wanted = [chosen === "diagrams" ? DIAGRAMS : chosen ? [chosen] : [], SOURCES[main] || DIAGRAMS, DIAGRAMS].map(there);
     return wanted.find((names) => names.length) || [];
