@@ -88,19 +88,26 @@ def drawn_view(
     paper: Lettering,
     tell: Tell,
     held: HeldView | None,
+    *,
+    lowest: bool = True,
 ) -> DrawnView:
     """The view that is asked for, drawn from the steps.
 
     constructions : those that draw in it, and those that settle its scale
     paper : the lettering of the sheet
     held : what the view keeps, None where it is free
+    lowest : whether no other stands under it
 
     Raises
     ------
     DesignError : it is larger than any sheet; while it is held nothing depends on how large it is
     """
     letters = screen_letters(paper, max(asked.px_per_mm, 0.01), asked.letter_px)
-    steps = [replace(each, step=_plain(each.step, letters.small)) for each in steps] if asked.plain else steps
+    steps = (
+        [replace(each, step=_plain(each.step, letters.small, lowest=lowest)) for each in steps]
+        if asked.plain
+        else steps
+    )
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
     former = held.labels if held else {}
@@ -120,18 +127,20 @@ def _expanded(step: Step, letters: Lettering, tell: Tell, *, labelled: bool) -> 
     return entities, writings if labelled else []
 
 
-def _plain(step: Step, letter: float) -> Step:
+def _plain(step: Step, letter: float, *, lowest: bool) -> Step:
     """The step without its construction: axes with one graduation, results and limits.
 
     letter : the height of the numbers [mm]; of those along an axis only so many are kept that they find room
     """
     kept, numbered = list[Mark](), list[complex]()
-    for mark in sorted(step.marks, key=lambda mark: abs(mark.at.imag) if isinstance(mark, Label) else 0.0):
+    marks = (*step.marks, *(step.under if lowest else ()))
+    for mark in sorted(marks, key=lambda mark: abs(mark.at.imag) if isinstance(mark, Label) else 0.0):
         if mark.spare or not (mark.axis if isinstance(mark, Label) else getattr(mark, "role", None) in PLAIN_ROLES):
             continue
         if isinstance(mark, Label) and mark.small:
-            # Each axis has a number at least where it meets the other one.
-            apart = [mark.at - other for other in (complex(mark.at.real), *numbered) if other != mark.at]
+            # An ordinate is zero where it meets the other axis.
+            zero = [] if mark.towards.imag else [complex(mark.at.real)]
+            apart = [mark.at - other for other in (*zero, *numbered) if other != mark.at]
             if any(abs(d.imag) < LINE_ROOM * letter and abs(d.real) < NUMBER_ROOM * letter for d in apart):
                 continue
             numbered.append(mark.at)

@@ -19,6 +19,7 @@ from graphcam.language import language
 from graphcam.sheets.player import PAGE_CAPTIONS as PLAYER_WORDS
 from graphcam.sheets.player_svg import roles_css
 from graphcam.sheets.typefaces import font_faces
+from graphcam.studio.address import FIELDS
 from graphcam.words import Caption, say, say_in
 
 if TYPE_CHECKING:
@@ -227,7 +228,7 @@ def page(config: Mapping[str, Any], policy: str = CONTENT_POLICY, scripts: tuple
     spoken = language(config.get("language", "en"))
     words = {name: spoken.text(word) for name, word in PAGE_CAPTIONS.items()}
     usual: dict[str, Any] = {"language": spoken.name, "first": None, "writes": [], "exercise": None}
-    data: dict[str, Any] = {**usual, **config, "words": words}
+    data: dict[str, Any] = {**usual, **config, "words": words, "address": FIELDS}
     builtin: Mapping[str, Any] = data["builtin"]
     return _template().render(
         language=spoken.name,

@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -139,7 +139,7 @@ def _steps_of_request(
 
 
 def _drawn_views(
-    solution: AnySolution, known: ViewSteps, asked: Iterable[AskedView], spoken: Language, hold: DragHold | None
+    solution: AnySolution, known: ViewSteps, asked: Sequence[AskedView], spoken: Language, hold: DragHold | None
 ) -> dict[str, DrawnView]:
     """The views that are asked for, by what they are kept by."""
     paper: Lettering = format_of(solution.task.drawing).lettering
@@ -147,8 +147,9 @@ def _drawn_views(
     found: dict[str, DrawnView] = {}
     for view in asked:
         key, name = key_of(view), view.name
-        constructions = known.drawing_in(name), known.settling(name)
-        found[key] = drawn_view(known.of_view(name), constructions, view, paper, spoken.text, held.get(key))
+        constructions, steps = (known.drawing_in(name), known.settling(name)), known.of_view(name)
+        lowest = view is asked[-1]
+        found[key] = drawn_view(steps, constructions, view, paper, spoken.text, held.get(key), lowest=lowest)
     return found
 
 

@@ -38,9 +38,9 @@ def in_turn(page: Page):
     page.locator("#all").click()
     settled(page)
     yield "the board"
-    page.evaluate("() => studio.open('mechanism')")
+    page.evaluate("() => studio.open('velocity')")
     settled(page)
-    yield "the mechanism"
+    yield "a construction and its source"
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,10 @@ def in_turn(page: Page):
 )
 def test_axe_core_finds_nothing(opened, scheme, window):
     # axe-core is put into the page, which the page forbids to all others.
-    page = opened("coursework", *WINDOWS[window], color_scheme=scheme, bypass_csp=True, reduced_motion="reduce")
+    config = {"opening": "mechanism"}
+    page = opened(
+        "coursework", *WINDOWS[window], "", config, color_scheme=scheme, bypass_csp=True, reduced_motion="reduce"
+    )
     for state in in_turn(page):
         assert barred(page) == [], state
 

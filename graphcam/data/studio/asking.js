@@ -203,7 +203,7 @@ function askingOf(page) {
   }
 
   async function writeAddress() {
-    const hash = await page.address.write({ ...now(), ...unanswered });
+    const hash = await page.address.write(page.place(unanswered));
     try {
       if (hash && hash !== location.hash) history.replaceState(null, "", hash);
     } catch { /* a page in a frame may not */ }

@@ -44,7 +44,7 @@ function filesOf(page) {
   }
 
   async function copyLink() {
-    const hash = await page.address.write(now());
+    const hash = await page.address.write(page.place());
     await page.writeAddress();
     try { await navigator.clipboard.writeText(location.href); } catch { /* the address line has it */ }
     const text = word(hash ? "link_copied" : "link_too_long");

@@ -4,8 +4,9 @@
 // How long the frame glides to another one [ms]; what fills less of it than this is looked at more closely.
 const GLIDE = 300, TOO_SMALL = 0.6;
 
-// Of several views one under another less than this of the width is not enough: they are looked at from the top.
-const TOO_NARROW = 0.7;
+// Several views one under another that would be seen smaller than this are looked at from the top, as wide as the stage
+// [pixels for a millimetre].
+const LEGIBLE = 0.6;
 
 // How many times as large as all of it a detail may be seen.
 const CLOSEST = 20;
@@ -142,7 +143,7 @@ function stageOf(at) {
     at("stage").classList.toggle("detailed", details.has(shown));
     svg().setAttribute("viewBox", frame.join(" "));
     // Nothing is drawn thinner than can be seen.
-    const { scale } = fit(frame), letter = Math.max(12, Math.min(24, size()[0] / 36));
+    const { scale } = fit(frame), [wide, high] = size(), letter = Math.max(12, Math.min(24, wide / 36, high / 20));
     svg().style.setProperty("--pixel", `${1 / scale}px`);
     svg().style.setProperty("--letter", `${letter / scale}px`);
     for (const moved of watching) moved();
@@ -189,7 +190,7 @@ function stageOf(at) {
   // What is seen first of a picture: all of it, or the top of one that is too high.
   function firstOf({ frame, down }) {
     const [wide, high] = size(), [x, y, w, h] = frame;
-    return !down || high / h >= TOO_NARROW * wide / w ? frame : [x, y, w, w * high / wide];
+    return !down || high / h >= Math.min(LEGIBLE, wide / w) ? frame : [x, y, w, w * high / wide];
   }
 
   // A view through its frame, which stays while a hand is down, and else as long as it serves.

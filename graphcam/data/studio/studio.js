@@ -8,7 +8,7 @@
   const phone = matchMedia("(max-width: 51.99rem)");
 
   const state = stateOf({
-    name: config.name, task: config.task, view: config.view ?? null, beside: config.beside ?? null, step: null, part: null, phi: USUAL_PHI, station: null,
+    name: config.name, task: config.task, view: config.view ?? null, beside: config.beside ?? null, swept: null, step: null, part: null, phi: USUAL_PHI, station: null,
     pin: null, mode: "play", panel: phone.matches ? "sizes" : "step", board: false,
     // For the modes: the last construction that is shown, whether sizes are moved, which views and panels are locked.
     upto: null, inert: false, hidden: [],
@@ -50,7 +50,7 @@
     sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), leave: () => page.leave(), refused: () => page.showStatus(), word, decimal }),
     stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
     showValues: valuesPanelOf(at("panel-values"), words),
-    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), decimal, language: config.language }),
+    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
@@ -84,7 +84,7 @@
     if (wire.tell && is("task", "view")) wire.tell({ task: now().task, view: now().view });
     if (page.hand?.drag || page.accepting) return;
     if (is("task", "view", "beside", "board", "upto", "station", "inert") || (is("phi") && !page.turning())) page.ask();
-    else if (is("step", "part", "pin", "mode", "hidden")) page.rest();
+    else if (is("step", "part", "pin", "mode", "hidden", "panel", "swept")) page.rest();
   });
 
   function togglePin() {
@@ -182,7 +182,7 @@
   }
 
   const studio = {
-    config, words, state, stats, shown: page.shown, stage: page.stage, ask: page.queue.question, setMode,
+    config, words, state, stats, shown: page.shown, stage: page.stage, panes, ask: page.queue.question, setMode,
     announce: page.announce, open: page.open, go: page.go, load: page.load, draw: page.showAll, change: page.changeAny,
     panel: {
       card(element) {
@@ -199,7 +199,7 @@
 
   // Another state as a whole, from an address, a file or the page around this one: resolves to whether it can be drawn.
   const wantWhole = (whole) => new Promise((done) => {
-    const { task, name } = now(), anew = { view: null, step: null, part: null, phi: USUAL_PHI, station: null };
+    const { task, name } = now(), anew = { view: null, beside: null, step: null, part: null, phi: USUAL_PHI, station: null, swept: null };
     page.want(() => ({ forget: true, task, name, ...anew, ...whole })).done = done;
   });
   page.wantWhole = wantWhole;

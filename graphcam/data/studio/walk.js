@@ -59,9 +59,16 @@ function walkOf(page) {
   const wholeOn = () => go(now().part === null ? currentStep() + 1 : currentStep());
   const wholeBack = () => go(currentStep() - 1);
 
+  // What an address says: of the view that moves, too, and of a cam that turns a round angle.
+  const place = (more) => {
+    const { phi, own, ...shown } = { ...now(), ...more }, first = usualView() === "mechanism" ? "mechanism" : "";
+    const withView = (state) => ({ ...state, view: state.view ?? first });
+    return { ...withView(shown), own: own && withView(own), phi: Math.round(10 * phi) / 10 };
+  };
+
   function open(name) {
     state.set({ view: name === usualView() ? null : name, step: null, part: null, board: false });
   }
 
-  return { viewNames, view, beside, titleOf, drawn, turns, currentStep, counts, go, on, back, wholeOn, wholeBack, open };
+  return { viewNames, view, beside, place, titleOf, drawn, turns, currentStep, counts, go, on, back, wholeOn, wholeBack, open };
 }

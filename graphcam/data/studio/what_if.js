@@ -4,7 +4,7 @@
 // So many designs make a curve; they are asked for in pieces, between which a picture can be asked for.
 const DESIGNS = 200, PIECE = 25;
 
-function whatIfOf(element, words, { ask, state, change, decimal, language }) {
+function whatIfOf(element, words, { ask, state, change, choose, decimal, language }) {
   const size = make("select", { id: "sweep-size", "data-key": "sweep-size" });
   const charts = make("div", { class: "charts" }), both = make("div");
   const pin = make("button", { type: "button", class: "pins", text: words.pin, onclick: () => document.getElementById("pin").click() });
@@ -19,7 +19,7 @@ function whatIfOf(element, words, { ask, state, change, decimal, language }) {
     const optionsOf = (all) => JSON.stringify(all.map((field) => [field.path, field.name])), same = optionsOf(found) === optionsOf(fields);
     fields = found;
     if (same) return;
-    const before = size.value;
+    const before = state().swept ?? size.value;
     size.replaceChildren(...fields.map((field) => make("option", { value: field.path, text: field.name })));
     const wanted = fields.find((field) => field.path === before) || fields.find((field) => /offset|distance/.test(field.path)) || fields[0];
     if (wanted) size.value = wanted.path;
@@ -130,7 +130,10 @@ function whatIfOf(element, words, { ask, state, change, decimal, language }) {
       ...found, at: [...found.at, ...piece.at], curves: found.curves.map((curve) => ({ ...curve, values: [...curve.values, ...values(curve.id)] })),
     };
   }
-  size.addEventListener("change", update);
+  size.addEventListener("change", () => {
+    choose(size.value);
+    update();
+  });
 
   // The present cam and the pinned one, side by side.
   function compare(values, pinned) {
