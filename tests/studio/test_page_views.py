@@ -180,6 +180,32 @@ def test_files_are_written_by_who_serves_the_page(opened):
     page.wait_for_function("() => document.getElementById('written').textContent === 'Written to cam: sheet.pdf'")
 
 
+def test_files_of_others_are_asked_about(opened, served):
+    page = opened()
+    written = []
+
+    def write(path, request, usual=served.answered):
+        if path != "/write":
+            return usual(path, request)
+        written.append(request["replace"])
+        return (
+            {"files": ["sheet.pdf"], "folder": "cam"}
+            if request["replace"]
+            else {"others": ["mine.pdf"], "folder": "cam"}
+        )
+
+    served.answered = write
+    try:
+        page.locator("[data-write='sheet']").click()
+        page.locator("#replace").wait_for()
+        assert "mine.pdf" in page.locator("#written").inner_text()
+        page.locator("#replace").click()
+        page.wait_for_function("() => document.getElementById('written').textContent === 'Written to cam: sheet.pdf'")
+    finally:
+        del served.answered
+    assert written == [False, True]
+
+
 def test_another_builtin_task_takes_the_place_of_this_one(opened):
     page = opened()
     page.locator("#builtin").select_option("flat")

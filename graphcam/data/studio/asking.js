@@ -40,7 +40,7 @@ function askingOf(page) {
     return {
       ask: "views", language: page.config.language, upto, views: viewsAsked(aim), task, phi, station,
       ...(aim.drag && { drag: aim.drag }),
-      hold: hand ? hand.hold : null, told: !hand, form: !hand, warnings: !hand, values: !hand || panel === "values",
+      hold: hand ? hand.hold : null, told: !hand, form: !hand, warnings: !hand, values: !hand || panel === "values" || panel === "what-if",
       mechanism: !last.mechanism || page.panes.some((pane) => pane.names().includes("mechanism")),
     };
   }

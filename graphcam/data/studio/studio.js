@@ -50,7 +50,7 @@
     sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), leave: () => page.leave(), refused: () => page.showStatus(), word, decimal }),
     stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
     showValues: valuesPanelOf(at("panel-values"), words),
-    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
+    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, shown: () => page.last, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
