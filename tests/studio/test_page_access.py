@@ -87,6 +87,16 @@ def test_what_is_pressed_is_large_enough(opened, window):
     assert [each for each in small if each[0] not in ("moves", "dwell", "moves narrow", "dwell narrow tiny")] == []
 
 
+@pytest.mark.parametrize("spoken", ["en", "ru", "vi", "zh"])
+def test_the_words_of_buttons_fit_on_a_narrow_phone(opened, spoken):
+    page = opened("coursework", *WINDOWS["narrow"], config={"language": spoken})
+    cut = page.evaluate(
+        """() => [...document.querySelectorAll("header button, #panels button, .choice button, .rows button")]
+        .filter((button) => button.offsetParent && button.scrollWidth > button.clientWidth).map((b) => b.textContent)"""
+    )
+    assert cut == []
+
+
 def test_the_drawing_has_more_than_half_of_the_height_of_a_phone(opened):
     page = opened("coursework", 390, 844)
     above = page.evaluate("() => document.querySelector('.work').getBoundingClientRect().height")
