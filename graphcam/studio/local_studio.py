@@ -159,7 +159,7 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
 
 
 def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:
-    """The address at which the page shows a task: the page has no data in itself, so the address tells it.
+    """The address at which the page shows a task's mechanism: the page has no data in itself, so the address tells it.
 
     Raises
     ------
@@ -170,5 +170,5 @@ def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:
     ...     opened_address(server, gc.builtin_task("arm")).removeprefix(server.address)[:3]
     '&1.'
     """
-    place = StudioPlace(plain_task(task), nearest_built_in(task))
+    place = StudioPlace(plain_task(task), nearest_built_in(task), view="mechanism")
     return f"{server.address}&{address_of(place, built_in_tasks(), MAX_ADDRESS_LENGTH).removeprefix('#')}"
