@@ -11,7 +11,7 @@
     name: config.name, task: config.task, view: config.view ?? null, beside: config.beside ?? null, swept: null, step: null, part: null, phi: USUAL_PHI, station: null,
     pin: null, mode: "play", panel: phone.matches ? "sizes" : "step", board: false,
     // For the modes: the last construction that is shown, whether sizes are moved, which views and panels are locked.
-    upto: null, inert: false, hidden: [],
+    upto: config.exercise?.upto || null, inert: false, hidden: [],
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
     // In a tour: what the person was at before.
@@ -200,7 +200,7 @@
   // Another state as a whole, from an address, a file or the page around this one: resolves to whether it can be drawn.
   const wantWhole = (whole) => new Promise((done) => {
     const { task, name } = now(), anew = { view: null, beside: null, step: null, part: null, phi: USUAL_PHI, station: null, swept: null };
-    page.want(() => ({ forget: true, task, name, ...anew, ...whole })).done = done;
+    page.want(() => ({ forget: true, task, name, ...anew, ...whole, ...(whole.exercise && { upto: whole.exercise.upto || null }) })).done = done;
   });
   page.wantWhole = wantWhole;
 
