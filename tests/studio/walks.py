@@ -54,7 +54,8 @@ def pulled(page: Page, numbers: random.Random) -> str:
     thing = choose(numbers, page.locator(".hand, #form .size > input[type=range], .border"))
     if thing is None:
         return "nothing to move"
-    thing.scroll_into_view_if_needed()
+    # A knob goes with a cam that turns, and never rests.
+    thing.evaluate("(element) => element.scrollIntoView({ block: 'nearest' })")
     x, y = middle(thing)
     page.mouse.move(x, y)
     page.mouse.down()
