@@ -46,7 +46,7 @@ def summary(value: Any) -> Any:
         return ["Region", *(float(x) for part in (points.real, points.imag) for x in (part.min(), part.max()))]
     if is_dataclass(value):
         # What a mark belongs to is no part of how it looks.
-        left_out = {"of", "index"} if isinstance(value, Mark) else {"source"}
+        left_out = {"of", "index", "spare", "axis"} if isinstance(value, Mark) else {"source"}
         parts = [getattr(value, field.name) for field in fields(value) if field.name not in left_out]
         return [type(value).__name__, *map(summary, parts)]
     if isinstance(value, tuple):

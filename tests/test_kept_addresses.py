@@ -122,6 +122,7 @@ def test_a_kept_address_of_the_player_opens_what_it_opened(one):
 @pytest.mark.parametrize("one", STUDIO, ids=[one["address"][:24] for one in STUDIO])
 def test_a_kept_address_of_the_studio_opens_what_it_opened(one):
     place = place_of(one["address"], as_json(built_in_tasks()))
-    opens = as_json(vars(place))
+    # An address says more now; those of then say nothing of it.
+    opens = {name: value for name, value in as_json(vars(place)).items() if name in one["opens"] or value is not None}
     then = {name: as_then(opens[name]) for name in ("task", "pin") if opens.get(name)}
     assert opens | then == one["opens"]

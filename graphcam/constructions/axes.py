@@ -282,7 +282,7 @@ def axes_over_phi(
     scale = () if mu_phi.middles else (Label(complex(end), _scale_text(mu_phi), towards=-1 - 1j, small=True),)
     return (
         *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), ticks or degree_ticks(end, mu_phi)),
-        *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j)),
+        *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j, axis=True)),
         *scale,
     )
 
@@ -305,8 +305,9 @@ def phi_axes(motion: Motion, stations: Stations, mu_phi: Scale, heights: Floats,
 def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
     """A pole to the left on the axis, its distance [mm] set down below the lowest of the rays' ``heights`` there."""
     named, below = say("H{index} = {pole:.6g}", index=index, pole=distance), -5.0 + height_range(heights)[0]
+    level = Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act, spare=True)
     return (
-        *(Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act), pole.dots(), pole.label(f"P{index}", -1 + 1j)),
+        *(level, pole.dots(), pole.label(f"P{index}", -1 + 1j)),
         Dimension(pole.place, 0j, named, below, of=pole.act),
     )
 
@@ -376,7 +377,7 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
     strokes = Segments(np.append(x, low_ends), np.append(x - lengths * UP, high_ends), Role.SCALE)
     return (
         *(Line(np.array([0.0, end]) + level, Role.SCALE), strokes),
-        *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True) for n, at in below),
+        *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True, axis=True) for n, at in below),
         *([Label(level - SCALE_OFFSET * UP, _scale_text(mu_phi), 1 + 0j, small=True)] if mu_phi.middles else []),
     )
 

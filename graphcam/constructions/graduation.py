@@ -69,7 +69,10 @@ def graduation_marks(
     named = zip(ends[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
     return (
         Segments(starts, ends, Role.SCALE, of=of),
-        *(Label(at, value.with_values(value=n * every), towards=way[0], small=True, of=of) for at, n in named),
+        *(
+            Label(at, value.with_values(value=n * every), towards=way[0], small=True, axis=True, of=of)
+            for at, n in named
+        ),
         *([Label(way[1] + high * UP, name, towards=UP, of=of)] if name else []),
     )
 
@@ -150,7 +153,7 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
     below = x - np.where(whole, LONG_TICK, TICK) * UP
     named = zip(below[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
     low_ends, high_ends = break_strokes(mu_phi, level * UP)
-    return (
+    return _spare(
         Line(np.array([0.0, end]) + level * UP, Role.SCALE),
         Segments(np.append(x, low_ends), np.append(below, high_ends), Role.SCALE),
         *(Label(at, say("{t:.6g}", t=n * every), towards=-UP, small=True) for at, n in named),
@@ -162,6 +165,10 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
 
 DEGREES_LINE_LENGTH = 11.0
 """So far below the lowest place of a diagram a line of degrees ends, with its numbers [mm of paper]."""
+
+
+def _spare(*marks: Mark) -> tuple[Mark, ...]:
+    return tuple(replace(mark, spare=True) for mark in marks)
 
 
 def time_axis_caption(mu_phi: Scale, omega: float) -> Caption:
@@ -194,7 +201,7 @@ def graduated_at_speed(
     """The second graduation of the ordinates of v, a or j, beside the one at the ``end`` of the turn [mm of paper]."""
     at, x = scale_at_speed(per_mm, symbol, omega, lift_unit), end + SECOND_GRADUATION_OFFSET
     low, high = height_range(heights)
-    return (
+    return _spare(
         Line(x + UP * np.array([low, high]), Role.SCALE, of=of),
         *graduation_marks(heights, at.per_mm, x, of, name=sequence([symbol, unit(at.unit)])),
     )

@@ -57,10 +57,14 @@ class LeftPlaces(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Left:
-    """What a mark is of: the act that left it, and which of its places the pieces of the mark are."""
+    """What a mark is of: the act that left it, and which of its places the pieces of the mark are.
+
+    spare : whether it can be left out where there is little room, as a second graduation of an axis
+    """
 
     of: Origin | None = field(default=None, compare=False, repr=False)
     index: Places | None = field(default=None, compare=False, repr=False)
+    spare: bool = field(default=False, compare=False, repr=False)
 
     def left_by(self, drawn: LeftPlaces) -> Self:
         """The mark with the places that left it; every corner of a line or dots at one place is of that place."""
@@ -130,6 +134,7 @@ class Label(Left):
     """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``.
 
     along : how far a line runs level to the right from ``at``, which the text had better interrupt [mm]
+    axis : whether it names or numbers an axis
     """
 
     at: complex
@@ -137,6 +142,7 @@ class Label(Left):
     towards: complex = 1 + 1j
     small: bool = False
     along: float = 0.0
+    axis: bool = False
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,11 @@ SCENE_DESCRIPTIONS = {
     "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
     "blade": say("Cam and oscillating flat face; the contact wanders along the face."),
 }
+INSTANT_CENTRES = {
+    False: say("P is the instant centre of cam and follower; its distance from the cam centre is v."),
+    True: say("P is the instant centre of cam and follower."),
+}
+"""What the mark P is, by whether the follower swings."""
 LIVE_READINGS = ("pressure_angle", "displacement", "velocity")
 """Quantities shown while the cam turns; a flat face has no pressure angle."""
 
@@ -170,7 +175,7 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     units = "°", "°" if swings else " " + tell(unit_of("mm")), " " + tell(of_velocity)
     data: dict[str, Any] = {
         "kind": scene.kind,
-        "about": tell(SCENE_DESCRIPTIONS[scene.kind]),
+        "about": f"{tell(SCENE_DESCRIPTIONS[scene.kind])} {tell(INSTANT_CENTRES[swings])}",
         "sigma": scene.sigma,
         "step": 360 / (scene.phi.size - 1),
         "phases": [_phase(phase, tell) for phase in scene.phases],
@@ -258,8 +263,12 @@ def _point(point: complex) -> list[float]:
 
 
 def _points(points: Points) -> list[list[float]]:
-    return [_point(point) for point in points.tolist()]
+    return _rounded(np.stack([points.real, points.imag], axis=-1)).tolist()
 
 
 def _numbers(values: Floats) -> list[float | None]:
-    return [plain_number(_rounded_number(value)) for value in values.tolist()]
+    return [plain_number(value) for value in _rounded(values).tolist()]
+
+
+def _rounded(values: Floats) -> Floats:
+    return np.round(values, DECIMALS) + 0.0

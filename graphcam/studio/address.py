@@ -1,9 +1,9 @@
 """The state of the studio in an address: a link shows a cam, without a server that would keep it.
 
 The part after ``#`` is ``1.`` (the version) and, in base64url, the raw deflate of a JSON table: ``b`` the built-in
-task from which the task differs, ``d`` the differences by their paths, ``n`` those of the pinned task, and what is
-shown: ``v`` the view, ``s`` the step, ``p`` the cam angle in degrees, ``m`` the mode, ``x`` the exercise.  What has its
-usual value is left out.  The page reads and writes the same (``data/studio/address.js``).
+task from which the task differs, ``d`` the differences by their paths, and what is shown, as :data:`FIELDS` declares
+it.  What has its usual value is left out.  The page reads and writes by the same declaration
+(``data/studio/address.js``).
 """
 
 import base64
@@ -34,8 +34,11 @@ class StudioPlace:
 
     task : as in a request of the engine, with the keys and units of a task file
     built_in : the name of the built-in task from which it is told
-    view, step, mode : the names of what is shown; None is the usual one
+    view, beside, step, mode, panel : the names of what is shown; None is the usual one.  Without a view it is the main
+        construction; beside it stands what belongs to it, and nothing if that is ""
+    part, station : of the step, and of the velocity plan
     phi : cam angle [degrees]; None is the usual one
+    swept : the path of the size over which What if is drawn
     pin : the task that is pinned beside it; None where there is none
     exercise : what is asked of the task, see :mod:`graphcam.exercises.exports.studio_link`; None is nothing
     """
@@ -43,15 +46,33 @@ class StudioPlace:
     task: Mapping[str, Any]
     built_in: str = "coursework"
     view: str | None = None
+    beside: str | None = None
     step: str | None = None
+    part: int | None = None
+    station: int | None = None
     phi: float | None = None
     mode: str | None = None
+    panel: str | None = None
+    swept: str | None = None
     pin: Mapping[str, Any] | None = None
     exercise: Mapping[str, Any] | None = None
 
 
-_STATE_KEYS = {"v": "view", "s": "step", "p": "phi", "m": "mode", "x": "exercise"}
-_STATE_TYPES: dict[str, type | tuple[type, ...]] = {"v": str, "s": str, "p": (int, float), "m": str, "x": dict}
+FIELDS = (
+    ("v", "view", "string", [""]),
+    ("w", "beside", "string", []),
+    ("s", "step", "string", []),
+    ("t", "part", "number", []),
+    ("q", "station", "number", []),
+    ("p", "phi", "number", [30]),
+    ("m", "mode", "string", ["play"]),
+    ("o", "panel", "string", ["sizes", "step"]),
+    ("f", "swept", "string", []),
+    ("n", "pin", "task", []),
+    ("x", "exercise", "object", []),
+)
+"""What an address says besides the task: key, name, kind of the value, and the values that the page leaves out."""
+_KINDS: dict[str, type | tuple[type, ...]] = {"string": str, "number": (int, float), "object": dict, "task": dict}
 
 
 def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], longest: int = MAX_LENGTH) -> str:
@@ -73,8 +94,9 @@ def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], lo
     """
     base, state = built_in[place.built_in], dict[str, Any](b=place.built_in)
     state |= {"d": moved} if (moved := dict(differences(base, place.task))) else {}
-    state |= {} if place.pin is None else {"n": dict(differences(base, place.pin))}
-    state |= {key: value for key, name in _STATE_KEYS.items() if (value := getattr(place, name)) is not None}
+    for key, name, kind, _ in FIELDS:
+        if (value := getattr(place, name)) is not None:
+            state[key] = dict(differences(base, value)) if kind == "task" else value
     packer = zlib.compressobj(9, zlib.DEFLATED, _RAW_DEFLATE)
     said = json.dumps(state, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     packed = packer.compress(said.encode()) + packer.flush()
@@ -101,12 +123,15 @@ def place_of(address: str, built_in: Mapping[str, Mapping[str, Any]]) -> StudioP
 it was given, from # to the end
     """
     state = _unpacked(address)
-    name, moved, pinned = state.get("b", "coursework"), state.get("d", {}), state.get("n")
+    name, moved = state.get("b", "coursework"), state.get("d", {})
     if not isinstance(name, str) or name not in built_in or not isinstance(moved, dict):
         raise _no_address(address)
-    shown = {_STATE_KEYS[key]: state[key] for key, kind in _STATE_TYPES.items() if isinstance(state.get(key), kind)}
-    pin = _with_differences(built_in[name], pinned) if isinstance(pinned, dict) else None
-    return StudioPlace(_with_differences(built_in[name], moved), name, **shown, pin=pin)
+    shown: dict[str, Any] = {
+        field: _with_differences(built_in[name], state[key]) if kind == "task" else state[key]
+        for key, field, kind, _ in FIELDS
+        if isinstance(state.get(key), _KINDS[kind])
+    }
+    return StudioPlace(_with_differences(built_in[name], moved), name, **shown)
 
 
 def _no_address(address: str) -> DesignError:

@@ -3,12 +3,12 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import blake2b
 from itertools import chain
 
 from graphcam.drafting.ink import Step
-from graphcam.drafting.marks import AngleMark, Dimension, Label
+from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Role
 from graphcam.errors import DesignError
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import held_places, label_places, places_of, shading_parted, with_texts
@@ -29,6 +29,10 @@ INDEX_HEIGHT_SHARE = math.sqrt(0.5)
 """The height of an index, in heights of its letter."""
 HEIGHT_STEP = 0.25
 """Letters grow in steps, so that they do not change with every pixel [mm]."""
+LINE_ROOM, NUMBER_ROOM = 1.6, 3.8
+"""Numbers of a plain view stand at least so far apart, one over another and side by side, in heights of a letter."""
+PLAIN_ROLES = Role.SCALE, Role.RESULT, Role.LIMIT
+"""Lines of a plain view."""
 EMPTY_FRAME = Box(0.0, 0.0, 1.0, 1.0)
 """The frame of a view in which nothing is drawn."""
 
@@ -84,18 +88,26 @@ def drawn_view(
     paper: Lettering,
     tell: Tell,
     held: HeldView | None,
+    *,
+    lowest: bool = True,
 ) -> DrawnView:
     """The view that is asked for, drawn from the steps.
 
     constructions : those that draw in it, and those that settle its scale
     paper : the lettering of the sheet
     held : what the view keeps, None where it is free
+    lowest : whether no other stands under it
 
     Raises
     ------
     DesignError : it is larger than any sheet; while it is held nothing depends on how large it is
     """
     letters = screen_letters(paper, max(asked.px_per_mm, 0.01), asked.letter_px)
+    steps = (
+        [replace(each, step=_plain(each.step, letters.small, lowest=lowest)) for each in steps]
+        if asked.plain
+        else steps
+    )
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
     former = held.labels if held else {}
@@ -113,6 +125,27 @@ def _expanded(step: Step, letters: Lettering, tell: Tell, *, labelled: bool) -> 
     """What a step draws.  A view of the studio stands alone, so the numbers of an axis stand under it."""
     entities, writings = expand((*step.marks, *step.under), Placement(0j), letters, tell)
     return entities, writings if labelled else []
+
+
+def _plain(step: Step, letter: float, *, lowest: bool) -> Step:
+    """The step without its construction: axes with one graduation, results and limits.
+
+    letter : the height of the numbers [mm]; of those along an axis only so many are kept that they find room
+    """
+    kept, numbered = list[Mark](), list[complex]()
+    marks = (*step.marks, *(step.under if lowest else ()))
+    for mark in sorted(marks, key=lambda mark: abs(mark.at.imag) if isinstance(mark, Label) else 0.0):
+        if mark.spare or not (mark.axis if isinstance(mark, Label) else getattr(mark, "role", None) in PLAIN_ROLES):
+            continue
+        if isinstance(mark, Label) and mark.small:
+            # An ordinate is zero where it meets the other axis.
+            zero = [] if mark.towards.imag else [complex(mark.at.real)]
+            apart = [mark.at - other for other in (*zero, *numbered) if other != mark.at]
+            if any(abs(d.imag) < LINE_ROOM * letter and abs(d.real) < NUMBER_ROOM * letter for d in apart):
+                continue
+            numbered.append(mark.at)
+        kept.append(mark)
+    return replace(step, marks=tuple(kept), under=())
 
 
 def label_names(named: NamedStep) -> list[str]:
@@ -150,4 +183,5 @@ def digest(svg: str) -> str:
 
 def key_of(asked: AskedView) -> str:
     """What a view is kept by: with and without labels it has different frames."""
-    return asked.name if asked.labelled else f"{asked.name}, small"
+    kind = ", plain" if asked.plain else "" if asked.labelled else ", small"
+    return asked.name + kind

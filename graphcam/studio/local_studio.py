@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.errors import DesignError, GraphcamError, choice_limit
+from graphcam.files import digest
 from graphcam.language import ENGLISH, language
 from graphcam.showing import higher_function
 from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS
@@ -17,7 +18,7 @@ from graphcam.studio.engine import answer
 from graphcam.studio.server import StudioServer
 from graphcam.studio.studio_page import page
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
-from graphcam.studio.views_request import task_data, task_in
+from graphcam.studio.views_request import flag, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.words import message
@@ -39,22 +40,36 @@ FILES_BY_CHOICE: Mapping[str, tuple[str, ...]] = {
 class WrittenFiles:
     """The files of a session, in one folder that holds one cam: what was asked for before comes along anew.
 
+    Files in the folder that the session has not written, or that somebody has changed since, are not replaced unasked.
+
     folder : where they go; the page cannot choose another
     language : of what is written, where the task says none
+    own : the files that the session has written, with their digests
     """
 
     folder: Path
     language: str = "en"
     kinds: frozenset[str] = field(default=frozenset(), init=False)
+    own: dict[Path, str] = field(default_factory=dict[Path, str], init=False)
 
     def write(self, request: Mapping[str, Any]) -> dict[str, Any]:
         """Write the files of a request's "kind" for its "task": their names and the folder, or what is wrong.
 
+        Where there are files of others, their names and the folder alone, unless the request says "replace".
+
         >>> WrittenFiles(Path("out")).write({"kind": "../notes", "task": {}})["error"]["message"]
         "kind is '../notes', but must be one of sheet, note, notebook, working drawing, all"
         """
+        from graphcam.report.output_folder import SOLUTION_FILE
+
         try:
-            folder, names = self._written(_kind(request), self._task(request))
+            kind, task = _kind(request), self._task(request)
+            folder = self.folder / kind if kind == NOTEBOOK_CHOICE else self.folder
+            if (others := self._others(folder)) and not flag(request, "replace"):
+                return {"others": others, "folder": str(folder)}
+            names = self._written(kind, task, folder)
+            written = {*names, SOLUTION_FILE}
+            self.own |= {path: digest(path) for path in _files_in(folder) if path.name in written}
         except GraphcamError as error:
             tell = language(self.language).text
             said = {"message": tell(message(error.fault)), "remedy": tell(message(error.advice))}
@@ -72,18 +87,25 @@ class WrittenFiles:
             return task
         return replace(task, motion=replace(task.motion, table=replace(task.motion.table, file=TABLE_FILE)))
 
-    def _written(self, kind: str, task: Task | ArcsTask) -> tuple[Path, list[str]]:
+    def _others(self, folder: Path) -> list[str]:
+        """The names of files in a folder that are not as the session has written them."""
+        return [path.name for path in _files_in(folder) if path not in self.own or self.own[path] != digest(path)]
+
+    def _written(self, kind: str, task: Task | ArcsTask, folder: Path) -> list[str]:
         if kind == NOTEBOOK_CHOICE:
-            folder = self.folder / NOTEBOOK_CHOICE
-            return folder, higher_function("notebooks.notebook_folder.write_folder")(task, folder)
+            return higher_function("notebooks.notebook_folder.write_folder")(task, folder)
         solution, kinds = solve(task), self.kinds | {kind}
         part = PART_CHOICE in kinds
         if part and kind != PART_CHOICE:
             part = _has_part(solution)
         wanted = _files(kinds if part else kinds - {PART_CHOICE})
-        names = solution.write(self.folder, wanted, working_drawing=part)
+        names = solution.write(folder, wanted, working_drawing=part)
         self.kinds = kinds
-        return self.folder, [name for name in names.values() if name]
+        return [name for name in names.values() if name]
+
+
+def _files_in(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.iterdir() if path.is_file()) if folder.is_dir() else []
 
 
 def _kind(request: Mapping[str, Any]) -> str:
@@ -137,7 +159,7 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
 
 
 def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:
-    """The address at which the page shows a task: the page has no data in itself, so the address tells it.
+    """The address at which the page shows a task's mechanism: the page has no data in itself, so the address tells it.
 
     Raises
     ------
@@ -148,5 +170,5 @@ def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:
     ...     opened_address(server, gc.builtin_task("arm")).removeprefix(server.address)[:3]
     '&1.'
     """
-    place = StudioPlace(plain_task(task), nearest_built_in(task))
+    place = StudioPlace(plain_task(task), nearest_built_in(task), view="mechanism")
     return f"{server.address}&{address_of(place, built_in_tasks(), MAX_ADDRESS_LENGTH).removeprefix('#')}"

@@ -33,7 +33,7 @@ from graphcam.studio.studio_page import script_names
 
 REQUEST_SECONDS = 10.0
 """Seconds in which a request must have arrived."""
-ANSWER_SECONDS = 2.0
+ANSWER_SECONDS = 8.0
 """Seconds after which the engine's answer is no longer waited for."""
 LIFE_SECONDS = {"/alive": 3600.0, "/alive?end": 10.0}
 """How long a server lives on after a sign of life of a tab: one that is quiet may be frozen, hidden, or behind a closed

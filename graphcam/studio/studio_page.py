@@ -19,6 +19,7 @@ from graphcam.language import language
 from graphcam.sheets.player import PAGE_CAPTIONS as PLAYER_WORDS
 from graphcam.sheets.player_svg import roles_css
 from graphcam.sheets.typefaces import font_faces
+from graphcam.studio.address import FIELDS
 from graphcam.words import Caption, say, say_in
 
 if TYPE_CHECKING:
@@ -122,6 +123,10 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "views": say("Views"),
     "all_views": say("All views (A)"),
     "fit": say("Fit (0)"),
+    "panes": say("Two panes (B)"),
+    "beside": say("Second pane"),
+    "beside_usual": say_in("the second pane", "What belongs to it"),
+    "beside_diagrams": say("Diagrams over φ"),
     "handles": say("Handles in the drawing"),
     "slider_2d": say("2D slider"),
     "type_a_number": say("Type a number"),
@@ -137,6 +142,12 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "write_working_drawing": say("Write the working drawing"),
     "writing": say("Writing ..."),
     "written": say("Written to {folder}: {files}", folder="{folder}", files="{files}"),
+    "others_there": say(
+        "{folder} has files that this page did not write: {files}. Nothing is written.",
+        folder="{folder}",
+        files="{files}",
+    ),
+    "replace_them": say("Write all the same"),
     "found": say_in("a size", "found"),
     "given": say_in("a size", "given"),
     "none": say_in("a size", "none"),
@@ -165,6 +176,7 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     ),
     "over": say("Over the size"),
     "sweeping": say("Computing the curve ..."),
+    "not_rounded": say("exact, not rounded: {value}", value="{value}"),
     "side_by_side": say("Side by side"),
     "pin_about": say("Pin the current cam, then change a size: both are shown, in the drawing and in a table."),
     "starting": say("Starting the engine: {state}", state="{state}"),
@@ -223,7 +235,7 @@ def page(config: Mapping[str, Any], policy: str = CONTENT_POLICY, scripts: tuple
     spoken = language(config.get("language", "en"))
     words = {name: spoken.text(word) for name, word in PAGE_CAPTIONS.items()}
     usual: dict[str, Any] = {"language": spoken.name, "first": None, "writes": [], "exercise": None}
-    data: dict[str, Any] = {**usual, **config, "words": words}
+    data: dict[str, Any] = {**usual, **config, "words": words, "address": FIELDS}
     builtin: Mapping[str, Any] = data["builtin"]
     return _template().render(
         language=spoken.name,

@@ -1,5 +1,6 @@
 """The steps of a solution in their views, with names that no number and no language changes, and as plain data."""
 
+import math
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
@@ -9,6 +10,7 @@ from typing import Any
 from graphcam.drafting.act_order import ActPlaces
 from graphcam.drafting.acts import Act
 from graphcam.drafting.ink import Construction, Step, View
+from graphcam.drafting.scale import unit
 from graphcam.errors import DesignError, choice_limit
 from graphcam.report.sheet_contents import chapter_numbers, construction_named, names_of, scaled_steps, scales_found
 from graphcam.report.step_player import drawn_in_parts, step_slides
@@ -92,6 +94,20 @@ class ViewSteps:
     def settling(self, view: str) -> tuple[str, ...]:
         """The constructions that settle the scale of the view."""
         return tuple(name for name, each in self.drawn.items() if view in each.meaning.scales)
+
+    def ordinate(self, view: str, tell: Tell) -> dict[str, object] | None:
+        """What a millimetre of paper stands for in a view, angles in degrees; None where no reading settles it."""
+        read = next(
+            (each.readings[each.meaning.scales[view]] for each in self.drawn.values() if view in each.meaning.scales),
+            None,
+        )
+        if read is None:
+            return None
+        degrees = read.unit == "rad"
+        return {
+            "per_mm": math.degrees(read.per_mm) if degrees else read.per_mm,
+            "unit": "°" if degrees else tell(unit(read.unit)),
+        }
 
     def names(self, tell: Tell) -> list[dict[str, object]]:
         """What an answer says of every view."""

@@ -1,7 +1,8 @@
 """The answer to "views": a task drawn in the views that are asked for, with what is said of it."""
 
+import math
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -96,7 +97,7 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
     asked = [view for view in request.views if view.name in known.views]
     told = clock.timed("told", lambda: _steps_of_request(request, known, asked, spoken))
     drawn = clock.timed("svg", lambda: _drawn_views(solution, known, asked, spoken, hold))
-    plain = clock.timed("svg", lambda: [_view(view, drawn[key_of(view)], told, spoken) for view in asked])
+    plain = clock.timed("svg", lambda: [_view(view, drawn[key_of(view)], known, told, spoken) for view in asked])
     names = list(hold.names) if hold else known.names(spoken.text)
     return {
         "changes": moved.changes,
@@ -110,6 +111,7 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
         # What is kept tells scales and accelerations, and where nothing is dragged nothing need be kept.
         "hold": None if request.upto else _kept_hold(solution, known, drawn, names, hold).plain(),
         "station": moved.station,
+        "degrees_per_mm": math.degrees(solution.chain.board.mu_phi.per_mm),
         "ms": clock.ms,
     }
 
@@ -133,11 +135,11 @@ def _handles(moved: MovedTask, asked: Iterable[AskedView], request: ViewsRequest
 def _steps_of_request(
     request: ViewsRequest, known: ViewSteps, asked: Iterable[AskedView], spoken: Language
 ) -> StepsData | None:
-    return steps_data(known, {view.name for view in asked}, spoken.text) if request.told else None
+    return steps_data(known, {view.name for view in asked if not view.plain}, spoken.text) if request.told else None
 
 
 def _drawn_views(
-    solution: AnySolution, known: ViewSteps, asked: Iterable[AskedView], spoken: Language, hold: DragHold | None
+    solution: AnySolution, known: ViewSteps, asked: Sequence[AskedView], spoken: Language, hold: DragHold | None
 ) -> dict[str, DrawnView]:
     """The views that are asked for, by what they are kept by."""
     paper: Lettering = format_of(solution.task.drawing).lettering
@@ -145,13 +147,15 @@ def _drawn_views(
     found: dict[str, DrawnView] = {}
     for view in asked:
         key, name = key_of(view), view.name
-        constructions = known.drawing_in(name), known.settling(name)
-        found[key] = drawn_view(known.of_view(name), constructions, view, paper, spoken.text, held.get(key))
+        constructions, steps = (known.drawing_in(name), known.settling(name)), known.of_view(name)
+        lowest = view is asked[-1]
+        found[key] = drawn_view(steps, constructions, view, paper, spoken.text, held.get(key), lowest=lowest)
     return found
 
 
-def _view(asked: AskedView, drawn: DrawnView, told: StepsData | None, spoken: Language) -> Plain:
-    """A view as plain data; of a step that the page has already only its hash."""
+def _view(asked: AskedView, drawn: DrawnView, known: ViewSteps, told: StepsData | None, spoken: Language) -> Plain:
+    """A view as plain data; of a step that the page has already only its hash, and of a plain view nothing is told."""
+    told = None if asked.plain else told
     svg = drawn.svg(told.shown_by if told else None)
     steps: dict[str, Plain] = {}
     for each, _ in drawn.steps:
@@ -159,7 +163,13 @@ def _view(asked: AskedView, drawn: DrawnView, told: StepsData | None, spoken: La
         new = {} if asked.have.get(each.id) == found else {"svg": svg[each.id]}
         steps[each.id] = {"hash": found, **new, **(told.plain(each) if told else {})}
     title = spoken.text(drawn.steps[-1][0].step.view.title)
-    return {"name": asked.name, "title": title, "frame": drawn.frame, "order": list(steps), "steps": steps}
+    shown = {
+        "name": asked.name,
+        "title": title,
+        "plain": asked.plain,
+        "ordinate": known.ordinate(asked.name, spoken.text),
+    }
+    return {**shown, "frame": drawn.frame, "order": list(steps), "steps": steps}
 
 
 def _numbers(solution: AnySolution, known: ViewSteps, request: ViewsRequest, spoken: Language) -> Plain:

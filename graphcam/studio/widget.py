@@ -131,6 +131,8 @@ class StudioWidget(anywidget.AnyWidget):
             "view": view,
             "name": nearest_built_in(given),
             "builtin": built_in_tasks(),
+            "opening": "construction",
+            "beside": "",
             "language": self._language,
         }
         # The page around this one settles what may be asked for.

@@ -22,10 +22,12 @@ from graphcam.tasks.task import Task
 
 ENGINE_FILE = "graphcam.zip"
 """The engine as the page carries it."""
-FIRST_VIEWS = ("combined", "region", "profile")
-"""The view that the page opens with: the first of these that there is."""
-PX_PER_MM = 2.0
-"""The scale for which the first view is lettered."""
+FIRST_VIEWS = ("acceleration", "velocity", "displacement", "angle")
+"""The views that the page opens with, beside the mechanism: those of these that there are."""
+PX_PER_MM = 1.0
+"""The scale for which the first views are lettered."""
+USUAL_ANGLE = 30.0
+"""The cam angle with which it opens [degrees]."""
 LICENCE_NOTE = """\
 graphcam: MIT.  Its lettering, osifont: LGPL-3.0-only or GPL-3.0-only with the font exception.
 Pyodide: Mozilla Public License 2.0, https://github.com/pyodide/pyodide
@@ -77,11 +79,10 @@ def worker_page(task: Task | ArcsTask, language: str, policy: str, script: str, 
 
 def first_answer(task: Mapping[str, Any], language: str) -> dict[str, Any]:
     """What the engine would answer first."""
-    asked = {"ask": "views", "seq": 0, "task": task, "language": language}
-    names = [view["name"] for view in answer({**asked, "views": []})["names"]]
-    name = next((name for name in FIRST_VIEWS if name in names), names[0])
+    asked = {"ask": "views", "seq": 0, "task": task, "language": language, "phi": USUAL_ANGLE}
     wanted = dict.fromkeys(("told", "values", "warnings", "form", "mechanism"), True)
-    return answer({**asked, **wanted, "views": [{"name": name, "px_per_mm": PX_PER_MM}]})
+    views = [{"name": name, "px_per_mm": PX_PER_MM, "plain": True} for name in FIRST_VIEWS]
+    return answer({**asked, **wanted, "views": views})
 
 
 FILE_POLICY = (

@@ -44,6 +44,8 @@ class Engine:
         """Serve the page of a built-in task."""
         builtin = {each: plain_task(each) for each in BUILT_IN}
         usual = {"transport": "server", "task": builtin[name], "name": name, "builtin": builtin, "writes": ["sheet"]}
+        # Most tests begin with a drawing that lies still.
+        usual["opening"] = "construction"
         self.html = page(usual | config)
         self.asked.clear()
         self.answering = answer

@@ -125,7 +125,7 @@ def test_the_page_reads_and_writes_the_same(opened):
         found, address = page.evaluate(TWIN, address_of(place, BUILT_IN))
         assert found["task"] == place.task
         assert (found["name"], found["pin"]) == (place.built_in, place.pin)
-        assert [found.get(name) for name in ("view", "step", "phi")] == [place.view, place.step, place.phi]
+        assert [found.get(name) for name in ("view", "step", "phi")] == [place.view or "", place.step, place.phi]
         assert found["mode"] == (place.mode or "play")
         # What it writes of that is read here.
         assert place_of(address, BUILT_IN) == place

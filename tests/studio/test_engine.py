@@ -1,6 +1,7 @@
 """What the engine answers of the built-in tasks: views, steps, letters, languages, exercises, values, warnings."""
 
 import json
+import math
 import re
 
 import pytest
@@ -56,6 +57,45 @@ def test_no_letter_is_too_small_to_be_read(px_per_mm):
 def test_a_small_picture_has_no_letters():
     steps = ask(plain_task("coursework"), "profile", px_per_mm=0.3)["views"][0]["steps"].values()
     assert not any("<text" in step["svg"] for step in steps)
+
+
+DIAGRAMS = ("acceleration", "velocity", "displacement", "angle")
+
+
+@pytest.mark.parametrize("name", fast_first(BUILT_IN))
+def test_a_plain_view_has_the_same_curves_and_no_construction(name):
+    known = [view for view in DIAGRAMS if view in view_names(name)]
+    plain = [{"name": view, "px_per_mm": 0.9, "plain": True} for view in known]
+    views = answer({"task": plain_task(name), "views": plain, "told": True})["views"]
+    for found, whole in zip(views, ask(plain_task(name), *known)["views"], strict=True):
+        here, there = ("".join(step["svg"] for step in view["steps"].values()) for view in (found, whole))
+        assert re.findall(RESULT, here) == re.findall(RESULT, there)
+        assert set(re.findall(r'class="\w+ (\w+)"', here)) <= {"scale", "result", "limit", "dimension", "middle", "end"}
+        # Its numbers do not lie on one another.
+        numbers = re.findall(r'<text [^>]*?x="([-\d.]+)" y="([-\d.]+)" font-size="([\d.]+)"[^>]*>[−\d.]+°?<', here)
+        places = [(float(x), float(y), float(size)) for x, y, size in numbers]
+        assert len(places) >= 2
+        for k, (x, y, size) in enumerate(places):
+            assert all(abs(x - u) > size or abs(y - v) > 0.8 * size for u, v, _ in places[:k])
+    # The lowest alone has the degrees of the common axis.
+    degrees = ["360°" in "".join(step["svg"] for step in view["steps"].values()) for view in views]
+    assert degrees[-1]
+    assert not any(degrees[:2])
+
+
+RESULT = r'class="line result"[^>]* d="([^"]*)"'
+
+
+@pytest.mark.parametrize("name", fast_first([name for name in BUILT_IN if name != "arcs"]))
+def test_the_scale_of_a_view_makes_values_of_its_heights(name):
+    found = ask(plain_task(name), "displacement")
+    view, cam = found["views"][0], gc.solve(builtin(name)).cam
+    lines = re.findall(RESULT, "".join(step["svg"] for step in view["steps"].values()))
+    highest = -min(float(y) for line in lines for y in re.findall(r"[ML][-\d.]+ ([-\d.]+)", line))
+    lift = float(max(cam.motion(phi / 50)[0] for phi in range(314)))
+    lift = lift if view["ordinate"]["unit"] == "mm" else lift * 180 / math.pi
+    assert highest * view["ordinate"]["per_mm"] == pytest.approx(lift, rel=0.02)
+    assert found["degrees_per_mm"] == pytest.approx(1.0)
 
 
 def test_russian_is_written_with_its_words_and_decimal_commas():

@@ -51,6 +51,9 @@ def test_the_page_shows_the_task_writes_and_ends_its_server(local, window, tmp_p
     page.goto(opened_address(server, gc.builtin_task("arm")))
     settled(page)
     assert page.evaluate("() => studio.state.get().task.follower.arm") == 125
+    # It opens with what moves, beside its diagrams.
+    assert page.evaluate("() => studio.panes.map((pane) => pane.names().length)") == [1, 4]
+    assert page.locator("#scene .cam").is_visible()
     # The token is nowhere to be seen or handed on.
     assert server.gatekeeper.token not in page.url
     assert page.evaluate("() => document.cookie") == ""

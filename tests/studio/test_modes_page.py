@@ -216,9 +216,9 @@ def test_a_tour_is_gone_through_to_its_end_by_keys_alone(opened):
 # --- Exercise --------------------------------------------------------------------------------------------------------
 
 
-def test_a_link_opens_the_exercise_without_what_is_asked(opened, issued):
+def test_a_link_opens_the_exercise_without_what_is_asked(opened, issued, served):
     variant, key = issued
-    page = opened(at=studio_address(variant, key, SALT))
+    page = opened(at=studio_address(variant, key, SALT), config={"opening": "mechanism"})
     page.wait_for_selector("#check")
     settled(page)
     assert task_of(page)["motion"] == variant.task.to_dict()["motion"]
@@ -233,6 +233,10 @@ def test_a_link_opens_the_exercise_without_what_is_asked(opened, issued):
     page.keyboard.press("a")
     settled(page)
     assert page.locator("#board").is_hidden()
+    # Nor was anything asked that tells it; beside the last diagram stands nothing but what is given.
+    assert {each["upto"] for each in served.pictures()} == {"acceleration"}
+    beside = page.evaluate("() => studio.panes[1].names()")
+    assert set(beside) <= {"scheme", "acceleration"}
     # A page that is loaded anew still has its exercise.
     assert in_hash(page)["x"]["upto"] == "acceleration"
 

@@ -38,9 +38,9 @@ def in_turn(page: Page):
     page.locator("#all").click()
     settled(page)
     yield "the board"
-    page.evaluate("() => studio.open('mechanism')")
+    page.evaluate("() => studio.open('velocity')")
     settled(page)
-    yield "the mechanism"
+    yield "a construction and its source"
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,10 @@ def in_turn(page: Page):
 )
 def test_axe_core_finds_nothing(opened, scheme, window):
     # axe-core is put into the page, which the page forbids to all others.
-    page = opened("coursework", *WINDOWS[window], color_scheme=scheme, bypass_csp=True, reduced_motion="reduce")
+    config = {"opening": "mechanism"}
+    page = opened(
+        "coursework", *WINDOWS[window], "", config, color_scheme=scheme, bypass_csp=True, reduced_motion="reduce"
+    )
     for state in in_turn(page):
         assert barred(page) == [], state
 
@@ -82,6 +85,16 @@ def test_what_is_pressed_is_large_enough(opened, window):
     )
     # A phase is as wide as it lasts; it can be chosen in other ways.
     assert [each for each in small if each[0] not in ("moves", "dwell", "moves narrow", "dwell narrow tiny")] == []
+
+
+@pytest.mark.parametrize("spoken", ["en", "ru", "vi", "zh"])
+def test_the_words_of_buttons_fit_on_a_narrow_phone(opened, spoken):
+    page = opened("coursework", *WINDOWS["narrow"], config={"language": spoken})
+    cut = page.evaluate(
+        """() => [...document.querySelectorAll("header button, #panels button, .choice button, .rows button")]
+        .filter((button) => button.offsetParent && button.scrollWidth > button.clientWidth).map((b) => b.textContent)"""
+    )
+    assert cut == []
 
 
 def test_the_drawing_has_more_than_half_of_the_height_of_a_phone(opened):

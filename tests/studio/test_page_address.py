@@ -10,9 +10,31 @@ from studio_tasks import BUILT_IN, plain_task
 
 pytestmark = pytest.mark.slow
 
+TEXTS = (
+    "#counter",
+    "#drawing-title",
+    "#drawing-title-beside",
+    "#sweep-size option:checked",
+    "#panel-step [aria-current]",
+)
+SEEN = f"() => {list(TEXTS)}.map((found) => document.querySelector(found)?.textContent)"
 BACK = """async (state) => { const { write, read } = addressOf(studio.config);
     const found = await read(await write({ view: null, step: null, phi: 30, mode: "play", pin: null, ...state }));
     return found; }"""
+
+
+SHOWN = {
+    "view": "plan",
+    "beside": "",
+    "step": "plan/α",
+    "part": 0,
+    "station": 4,
+    "phi": 77.5,
+    "mode": "tour",
+    "panel": "what-if",
+    "swept": "follower.offset",
+    "exercise": {"k": [1]},
+}
 
 
 def changed(task, numbers: random.Random):
@@ -32,11 +54,9 @@ def test_any_task_comes_back_out_of_its_address(opened, seed):
         name = BUILT_IN[k % len(BUILT_IN)]
         # A measured table differs in too much for an address.
         task = plain_task(name) if name == "measured" else changed(plain_task(name), numbers)
-        found = page.evaluate(
-            BACK, {"name": name, "task": task, "view": "plan", "step": "plan/α", "phi": 77.5, "pin": task}
-        )
+        found = page.evaluate(BACK, {"name": name, "task": task, "pin": task, **SHOWN})
         assert found["task"] == found["pin"] == task
-        assert (found["name"], found["view"], found["step"], found["phi"]) == (name, "plan", "plan/α", 77.5)
+        assert found == {"name": name, "task": task, "pin": task, **SHOWN}
 
 
 def test_only_what_differs_is_in_the_address(opened):
@@ -49,6 +69,34 @@ def test_only_what_differs_is_in_the_address(opened):
     settled(page)
     differs = {"motion.phases[0].angle": 90, "motion.phases[1].angle": 35, "follower.offset": None}
     assert in_hash(page) == {"b": "coursework", "d": differs, "v": "profile"}
+
+
+def test_an_address_shows_both_panes_the_part_and_what_if(opened):
+    page = opened(config={"opening": "mechanism"}, reduced_motion="reduce")
+    assert in_hash(page) == {"b": "coursework", "v": "mechanism"}
+    page.keyboard.press("3")
+    page.locator("#beside").select_option("profile")
+    page.locator("#next").focus()
+    page.keyboard.press("Home")
+    page.keyboard.press("ArrowRight")
+    page.locator("#tab-what-if").click()
+    page.locator("#sweep-size").select_option("limits.pressure_angle_rise")
+    settled(page)
+    said, shown = in_hash(page), page.evaluate(SEEN)
+    assert (said["v"], said["w"], said["o"], said["f"]) == (
+        *("velocity", "profile", "what-if", "limits.pressure_angle_rise"),
+    )
+    address = page.url
+    page.goto("about:blank")
+    page.goto(address)
+    settled(page)
+    assert page.evaluate(SEEN) == shown
+    assert in_hash(page) == said
+
+
+def test_an_address_of_before_opens_the_construction_that_it_opened(opened):
+    page = opened(config={"opening": "mechanism"}, at="#1.q1ZKUrJSSs4vLSpOLc8vylaqBQA")
+    assert page.locator("#view-combined").get_attribute("aria-selected") == "true"
 
 
 def test_an_address_shows_its_state_and_makes_no_entries_in_the_history(opened, served):

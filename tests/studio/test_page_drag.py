@@ -7,6 +7,7 @@ from studio_pages import frame_of, hand, in_hash, middle, settled, task_of
 
 pytestmark = pytest.mark.slow
 
+DIAGRAMS = "acceleration", "velocity", "displacement", "angle"
 MOVES = 40
 
 
@@ -82,13 +83,13 @@ def test_a_click_on_a_handle_changes_nothing(opened):
     assert page.evaluate("() => studio.state.past()") == 0
 
 
-def test_while_the_hand_is_down_only_the_large_view_is_drawn_and_nothing_is_told(opened, served):
+def test_while_the_hand_is_down_only_both_panes_are_drawn_and_nothing_is_told(opened, served):
     page = opened()
     served.asked.clear()
     drag(page, "combined/tangent rise", (20, 0))
     held = list(served.asked)
     assert held
-    assert {view["name"] for each in held for view in each["views"]} == {"combined"}
+    assert {view["name"] for each in held for view in each["views"]} == {"combined", *DIAGRAMS}
     assert not any(each["told"] or each["form"] or each["values"] for each in held)
     assert all(each["hold"] for each in held)
     page.mouse.up()

@@ -6,8 +6,10 @@ from html import unescape
 
 import pytest
 from studio_pages import settled, task_of
+from studio_tasks import plain_task
 
 from graphcam.studio.studio_page import SCRIPT_FILES, page as page_of
+from graphcam.studio.worker_page import first_answer
 
 pytestmark = pytest.mark.slow
 
@@ -178,6 +180,32 @@ def test_files_are_written_by_who_serves_the_page(opened):
     page.wait_for_function("() => document.getElementById('written').textContent === 'Written to cam: sheet.pdf'")
 
 
+def test_files_of_others_are_asked_about(opened, served):
+    page = opened()
+    written = []
+
+    def write(path, request, usual=served.answered):
+        if path != "/write":
+            return usual(path, request)
+        written.append(request["replace"])
+        return (
+            {"files": ["sheet.pdf"], "folder": "cam"}
+            if request["replace"]
+            else {"others": ["mine.pdf"], "folder": "cam"}
+        )
+
+    served.answered = write
+    try:
+        page.locator("[data-write='sheet']").click()
+        page.locator("#replace").wait_for()
+        assert "mine.pdf" in page.locator("#written").inner_text()
+        page.locator("#replace").click()
+        page.wait_for_function("() => document.getElementById('written').textContent === 'Written to cam: sheet.pdf'")
+    finally:
+        del served.answered
+    assert written == [False, True]
+
+
 def test_another_builtin_task_takes_the_place_of_this_one(opened):
     page = opened()
     page.locator("#builtin").select_option("flat")
@@ -188,13 +216,13 @@ def test_another_builtin_task_takes_the_place_of_this_one(opened):
     assert task_of(page)["follower"]["kind"] == "translating"
 
 
-def test_a_first_picture_is_there_before_the_engine_answers(opened, served):
-    page = opened()
-    first = page.evaluate("() => JSON.parse(JSON.stringify(studio.shown))")
+def test_a_first_picture_is_there_before_the_engine_answers(opened):
+    first = first_answer(plain_task("coursework"), "en")
     # The page around it is not there to answer.
-    page = opened(config={"first": first, "transport": "parent", "id": "one"}, settle=False)
-    page.wait_for_selector("#steps > g")
-    assert page.locator("#steps > g").count() == 8
+    config = {"first": first, "transport": "parent", "id": "one", "opening": "mechanism"}
+    page = opened(config=config, settle=False, reduced_motion="reduce")
+    page.wait_for_selector("#scene .cam")
+    assert page.locator("#steps-beside > g").count() == sum(len(view["order"]) for view in first["views"])
     assert page.locator("#told-limits").inner_text() == "All limits are satisfied"
 
 

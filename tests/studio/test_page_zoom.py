@@ -30,7 +30,7 @@ def test_the_wheel_brings_closer_what_stands_under_the_pointer(opened):
     whole, before = frame(page), under(page, *PLACE)
     page.mouse.move(*PLACE)
     page.mouse.wheel(0, -400)
-    page.wait_for_function("() => document.body.classList.contains('detailed')")
+    page.wait_for_function("() => document.querySelector('#stage').classList.contains('detailed')")
     assert frame(page)[2] == pytest.approx(whole[2] / 2.718281828)
     assert under(page, *PLACE) == pytest.approx(before, abs=1e-6)
     page.mouse.down()
@@ -38,7 +38,7 @@ def test_the_wheel_brings_closer_what_stands_under_the_pointer(opened):
     page.mouse.up()
     assert under(page, PLACE[0] + 60, PLACE[1] - 40) == pytest.approx(before, abs=1e-6)
     page.mouse.wheel(0, 1000)
-    page.wait_for_function("() => !document.body.classList.contains('detailed')")
+    page.wait_for_function("() => !document.querySelector('#stage').classList.contains('detailed')")
     assert frame(page) == pytest.approx(whole)
     # All of it is not dragged away.
     page.mouse.down()

@@ -93,7 +93,7 @@ def test_one_file_opens_without_a_request(page, one_file):
 def test_the_first_picture_is_there_before_the_engine(browser, one_file):
     page = browser.new_page()
     page.goto(one_file.as_uri())
-    assert page.evaluate("[studio.stats.length, document.querySelectorAll('#steps g').length > 5]") == [0, True]
+    assert page.evaluate("[studio.stats.length, document.querySelectorAll('#steps-beside g').length > 5]") == [0, True]
     page.close()
 
 

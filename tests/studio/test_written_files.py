@@ -91,3 +91,23 @@ def test_a_folder_that_cannot_be_is_told(tmp_path):
     (tmp_path / "out").write_text("a file")
     answer = WrittenFiles(tmp_path / "out").write({"kind": "note", "task": TASK})
     assert "cannot be written" in answer["error"]["message"]
+
+
+def test_files_of_others_are_replaced_only_when_that_is_asked_for(tmp_path):
+    (tmp_path / "note.md").write_text("my own note", encoding="utf-8")
+    files, request = WrittenFiles(tmp_path), {"kind": "note", "task": TASK}
+    assert files.write(request) == {"others": ["note.md"], "folder": str(tmp_path)}
+    assert names(tmp_path) == {"note.md"}
+    assert "note.md" in files.write(request | {"replace": True})["files"]
+    # What it has written itself it writes anew, until somebody has changed it.
+    assert "note.md" in files.write({"kind": "note", "task": OTHER})["files"]
+    assert radius(tmp_path) == 60
+    (tmp_path / "comparison.md").write_text("changed", encoding="utf-8")
+    assert files.write(request)["others"] == ["comparison.md"]
+    assert radius(tmp_path) == 60
+
+
+def test_another_session_does_not_replace_what_one_has_written(tmp_path):
+    request = {"kind": "notebook", "task": TASK}
+    WrittenFiles(tmp_path).write(request)
+    assert set(WrittenFiles(tmp_path).write(request)) == {"others", "folder"}

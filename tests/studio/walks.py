@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import random
+import re
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -40,7 +41,7 @@ def typed(page: Page, numbers: random.Random) -> str:
 
 
 def chosen(page: Page, numbers: random.Random) -> str:
-    chosen_list = choose(numbers, page.locator("#form select, #builtin"))
+    chosen_list = choose(numbers, page.locator("#form select, #builtin, #beside, #sweep-size"))
     if chosen_list is None:
         return "nothing to choose"
     k = numbers.randrange(chosen_list.locator("option").count())
@@ -53,7 +54,8 @@ def pulled(page: Page, numbers: random.Random) -> str:
     thing = choose(numbers, page.locator(".hand, #form .size > input[type=range], .border"))
     if thing is None:
         return "nothing to move"
-    thing.scroll_into_view_if_needed()
+    # A knob goes with a cam that turns, and never rests.
+    thing.evaluate("(element) => element.scrollIntoView({ block: 'nearest' })")
     x, y = middle(thing)
     page.mouse.move(x, y)
     page.mouse.down()
@@ -68,11 +70,19 @@ def pulled(page: Page, numbers: random.Random) -> str:
 
 
 def pressed(page: Page, numbers: random.Random) -> str:
-    name = numbers.choice(["#undo", "#undo", "#redo", "phase", "view", "given"])
-    found = {"phase": ".phase-bar button", "view": "#strip button", "given": ".choice button"}.get(name, name)
+    name = numbers.choice(["#undo", "#undo", "#redo", "phase", "view", "given", "#panes", "#play", "tab", "#pin"])
+    several = {
+        "tab": "#panels button",
+        "phase": ".phase-bar button",
+        "view": "#strip button",
+        "given": ".choice button",
+    }
+    found = several.get(name, name)
     if (button := choose(numbers, page.locator(found))) is None:
         return f"no {name}"
-    button.click()
+    # A phase of a degree is too narrow for a pointer.
+    button.focus()
+    page.keyboard.press("Enter")
     return f"press {name}"
 
 
@@ -91,7 +101,10 @@ OPERATIONS = typed, typed, typed, chosen, pulled, pulled, pulled, pressed, press
 READ = "async () => (await addressOf(studio.config).read(location.hash))?.task ?? null"
 FORM = """() => [...document.querySelectorAll("#form .size > .row input[type=text]")]
     .filter((one) => !one.hidden && !one.closest(".phases")).map((one) => [one.dataset.key, typedNumber(one.value)])"""
-RED = "() => document.querySelector('#form [aria-invalid=true]') !== null"
+PANES = """() => studio.state.get().board ? [] : studio.panes.flatMap(({ names, gallery }) => names()
+    .filter((name) => name !== "mechanism").map((name) => [name, gallery.view(name)]).map(([name, view]) => [
+    name, Boolean(view?.plain), view ? view.order.map((id) => view.steps[id].svg).join("") : ""]))"""
+RESULT = re.compile(r'class="line result"[^>]* d="([^"]*)"')
 
 
 def contradictions(page: Page) -> list[str]:
@@ -102,6 +115,12 @@ def contradictions(page: Page) -> list[str]:
         return [f"the state cannot be drawn: {engine['error']['message']}"]
     if page.evaluate("() => studio.shown.sizes") != engine["sizes"]:
         found.append("the picture is of another cam")
+    for name, plain, svg in page.evaluate(PANES):
+        (view,) = answer({"task": task, "views": [{"name": name, "px_per_mm": 1.0, "plain": plain}], "told": True})[
+            "views"
+        ]
+        if RESULT.findall(svg) != RESULT.findall("".join(step["svg"] for step in view["steps"].values())):
+            found.append(f"a pane shows {name} of another cam")
     if page.evaluate(READ) != task:
         found.append("the address is of another cam")
     refused = page.locator(".error:visible").count() > 0
@@ -139,8 +158,8 @@ def main() -> None:
     engine, stuck = Engine(), 0
     with chromium() as browser:
         for seed in range(asked.seed, asked.seed + asked.walks):
-            engine.serve()
-            page = browser.new_page(viewport={"width": 1440, "height": 900})
+            engine.serve(opening="mechanism")
+            page = browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
             page.goto(engine.url)
             settled(page)
             found = walk(page, seed, asked.operations)

@@ -50,6 +50,8 @@ function mechanismOf(picture, mechanism) {
   const rod = draw("path", "rod", {});
   const roller = draw("circle", sizes.roller ? "roller" : "roller pin", { r: sizes.roller || unit / 3 });
   const motion = draw("path", "motion", {});
+  const velocity = draw("path", "velocity", {}), centre = draw("circle", "instant", { r: unit / 2.5 });
+  const centreName = draw("text", "instant-name", { transform: "scale(1 -1)", "font-size": 1.9 * unit });
   const normal = draw("path", "normal", {});
   const arc = draw("path", "arc", {});
   const contact = draw("circle", "contact", { r: unit / 3 });
@@ -77,6 +79,15 @@ function mechanismOf(picture, mechanism) {
     }
   }
 
+  // The instant centre of cam and follower lies on the normal and on the line of centres, or of a stem on that through the
+  // cam centre square to its motion: there both have one velocity, and its distance from the cam centre is v.
+  function instantCentre([x, y], steep, direction) {
+    const turn = (degrees) => [Math.cos(degrees * Math.PI / 180), Math.sin(degrees * Math.PI / 180)], n = turn(steep);
+    const [ax, ay] = mechanism.pivot[0] || mechanism.pivot[1] ? [-mechanism.pivot[1], mechanism.pivot[0]] : turn(direction);
+    const far = -(x * ax + y * ay) / (n[0] * ax + n[1] * ay);
+    return [x + far * n[0], y + far * n[1]];
+  }
+
   function show(k) {
     const trace = arrays.trace[k], touch = arrays.contact[k], phi = k * step;
     const direction = arrays.motion[k], steep = arrays.normal[k], reach = sizes.reach;
@@ -86,6 +97,11 @@ function mechanismOf(picture, mechanism) {
     follower(trace, direction, steep);
     set(motion, line(along(trace, direction, -0.3 * reach), along(trace, direction, reach)));
     set(normal, line(touch, along(touch, steep, sizes.roller + reach)));
+    const [px, py] = instantCentre(touch, steep, direction), isFar = !(Math.hypot(px, py) < 4 * reach);
+    set(velocity, { d: isFar ? "" : pathOf([[0, 0], [px, py]]) + pathOf([touch, [px, py]]) });
+    set(centre, isFar ? { visibility: "hidden" } : { visibility: "visible", cx: px, cy: py });
+    set(centreName, { x: px + 0.7 * unit, y: -py + 2.2 * unit, visibility: isFar ? "hidden" : "visible" });
+    centreName.textContent = "P";
     const from = along(trace, direction, 0.72 * reach), to = along(trace, steep, 0.72 * reach);
     const turn = ((steep - direction + 540) % 360) - 180;
     set(arc, { d: `M${from.join(" ")}A${0.72 * reach} ${0.72 * reach} 0 0 ${turn > 0 ? 1 : 0} ${to.join(" ")}` });

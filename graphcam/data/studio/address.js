@@ -41,21 +41,21 @@ async function unpacked(letters) {
 
 // --- state and address ---------------------------------------------------------------------------------------------------
 
+// By the declaration of what an address says besides the task: [key, name, kind, values that are left out].
 function addressOf(config) {
   const base = config.builtin[config.name] ? config.name : Object.keys(config.builtin)[0];
+  const isOf = (kind, value) => (kind === "task" || kind === "object" ? isTable(value) : typeof value === kind);
 
   // In a tour it is the person's own task that is kept.
-  async function write({ mode, pin, exercise, own, ...shown }) {
-    const { task, name, view, step, phi } = own || shown;
+  async function write({ own, ...shown }) {
+    const { task, name, ...state } = { ...shown, ...own };
     const from = config.builtin[name] ? name : base;
     const d = differences(config.builtin[from], task), data = { b: from };
     if (Object.keys(d).length) data.d = d;
-    if (view) data.v = view;
-    if (step) data.s = step;
-    if (phi !== USUAL_PHI) data.p = phi;
-    if (mode !== "play") data.m = mode;
-    if (pin) data.n = differences(config.builtin[from], pin);
-    if (exercise) data.x = exercise;
+    for (const [key, field, kind, usual] of config.address) {
+      const value = state[field];
+      if (isOf(kind, value) && !usual.includes(value)) data[key] = kind === "task" ? differences(config.builtin[from], value) : value;
+    }
     const hash = `#1.${await packed(data)}`;
     return hash.length > LONGEST_ADDRESS ? null : hash;
   }
@@ -66,12 +66,8 @@ function addressOf(config) {
     try {
       const data = await unpacked(hash.slice(3)), from = config.builtin[data.b];
       if (!from) return null;
-      const state = { name: data.b, task: withChanges(from, data.d || {}), mode: data.m || "play" };
-      if (typeof data.v === "string") state.view = data.v;
-      if (typeof data.s === "string") state.step = data.s;
-      if (Number.isFinite(data.p)) state.phi = data.p;
-      state.pin = data.n ? withChanges(from, data.n) : null;
-      if (isTable(data.x)) state.exercise = data.x;
+      const state = { name: data.b, task: withChanges(from, data.d || {}), view: "", mode: "play", pin: null };
+      for (const [key, field, kind] of config.address) if (isOf(kind, data[key])) state[field] = kind === "task" ? withChanges(from, data[key]) : data[key];
       return state;
     } catch {
       return null;

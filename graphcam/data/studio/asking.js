@@ -7,25 +7,31 @@ const REST = 120;
 const OTHER_SIZE = 1.12;
 
 function askingOf(page) {
-  const { at, config, word, state, queue, large, small, last, stage, strip, sizes } = page, now = state.get;
+  const { config, word, state, queue, small, last, strip, sizes } = page, now = state.get;
   const lettered = new Set();
   let round = 0, resting = 0, unanswered = null;
 
   // --- the picture -----------------------------------------------------------------------------------------------------------
 
   // Pixels for a millimetre; before the first answer about as many as most views get.
-  function scaleOf(name) {
-    const frame = large.view(name)?.frame;
-    return frame ? stage.scale(frame) : Math.min(at("canvas").clientWidth / 190, at("canvas").clientHeight / 180) || 1.5;
+  function scaleOf({ at, stage, usual }, picture) {
+    const [wide, high] = usual, { clientWidth, clientHeight } = at("canvas");
+    return picture ? stage.scale(picture) : Math.min(clientWidth / wide, clientHeight / high) || 1.5;
   }
 
   // Letters grow with the stage: on a phone they can just be read, on a projector from afar [pixels].
-  const letterHeight = () => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / 66, at("canvas").clientHeight / 50)));
+  const letterHeight = ({ at, letters }) => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / letters, at("canvas").clientHeight / 50)));
 
+  // Several views in one pane stand there without their construction.
   function viewsAsked(aim = {}) {
-    const name = page.view(aim.view);
-    if (!name || page.turns() || now().board) return [];
-    return [{ name, px_per_mm: page.hand?.scale || scaleOf(name), letter_px: letterHeight(), have: aim.forget ? {} : large.have(name) }];
+    const main = page.view(aim.view), { scales } = page.hand || {};
+    if (now().board) return [];
+    return page.panes.flatMap((pane, k) => {
+      const names = pane.names(main).filter((name) => name && name !== "mechanism"), scale = scaleOf(pane, page.picture(pane)), letters = letterHeight(pane);
+      return names.map((name) => ({
+        name, pane: k, plain: names.length > 1, px_per_mm: scales?.[name] || scale, letter_px: letters, have: aim.forget ? {} : pane.gallery.have(name),
+      }));
+    });
   }
 
   // At rest all is told; while a hand is down only what is seen of it.
@@ -34,8 +40,8 @@ function askingOf(page) {
     return {
       ask: "views", language: page.config.language, upto, views: viewsAsked(aim), task, phi, station,
       ...(aim.drag && { drag: aim.drag }),
-      hold: hand ? hand.hold : null, told: !hand, form: !hand, warnings: !hand, values: !hand || panel === "values",
-      mechanism: !last.mechanism || page.turns(),
+      hold: hand ? hand.hold : null, told: !hand, form: !hand, warnings: !hand, values: !hand || panel === "values" || panel === "what-if",
+      mechanism: !last.mechanism || page.panes.some((pane) => pane.names().includes("mechanism")),
     };
   }
 
@@ -64,18 +70,18 @@ function askingOf(page) {
     // What was not asked for stays what it was.
     for (const key of ["values", "form", "warnings", "mechanism"]) if (request[key]) last[key] = answer[key];
     if (request.mechanism && !request.drag) last.turned = request.task;
-    for (const key of ["names", "sizes", "handles", "hold"]) if (answer[key]) last[key] = answer[key];
+    for (const key of ["names", "sizes", "handles", "hold", "degrees_per_mm"]) if (answer[key]) last[key] = answer[key];
     Object.assign(page.shown, answer);
     page.shown.error = null;
     if (hand && request.hold) hand.hold = answer.hold;
-    for (const one of answer.views) large.take(one, request.told);
+    for (const one of answer.views) page.panes[request.views.find(({ name }) => name === one.name)?.pane ?? 0].gallery.take(one, request.told);
     accept(answer, question);
     strip.build(page.viewNames());
     if (request.form) showForm(answer);
     if (request.told) page.showAll();
     else page.showAnswer();
     if (request.values && !request.told) page.showValueTables();
-    askAgain(request.views[0]);
+    askAgain(request.views);
   }
 
   // What was drawn is the state.
@@ -102,15 +108,15 @@ function askingOf(page) {
 
   // The first answer says which views there are, and a later one that there are others; and a frame may turn out another one than was thought.
   function askAgain(asked) {
-    const own = asked && large.view(asked.name), frame = own?.frame.join();
-    if (!own) {
-      if (page.view() && !page.turns() && !now().board && !page.drawn()) ask();
-      return;
+    const wanted = viewsAsked(), isNew = ({ name, pane }) => !asked.some((each) => each.name === name && each.pane === pane);
+    if (page.hand) return;
+    for (const view of wanted) {
+      const before = asked.find(({ name, pane }) => name === view.name && pane === view.pane), ratio = view.px_per_mm / (before?.px_per_mm ?? NaN);
+      const frame = `${view.name} ${page.picture(page.panes[view.pane])?.frame}`;
+      if (!isNew(view) && (lettered.has(frame) || (ratio < OTHER_SIZE && ratio > 1 / OTHER_SIZE))) continue;
+      lettered.add(frame);
+      return ask();
     }
-    const ratio = page.hand || lettered.has(frame) ? 1 : stage.scale(own.frame) / asked.px_per_mm;
-    if (ratio < OTHER_SIZE && ratio > 1 / OTHER_SIZE) return;
-    lettered.add(frame);
-    ask();
   }
 
   // The last good picture stays, paler, and so does the state; the value stays in its field as it was typed.
@@ -145,7 +151,7 @@ function askingOf(page) {
     round += 1;
     clearTimeout(resting);
     const later = () => {
-      if (page.hand || page.turning()) return;
+      if (page.hand) return;
       if (queue.busy()) resting = setTimeout(later, REST);
       else drawSmall(round);
     };
@@ -172,7 +178,7 @@ function askingOf(page) {
     Object.assign(last, { mechanism: answer.mechanism ?? null, turned: base.task });
     strip.build(page.viewNames());
     page.showPhi();
-    if (page.turns()) page.showDrawing();
+    page.showDrawing();
   }
 
   async function drawOne(place, name, base, goesOn) {
@@ -184,24 +190,24 @@ function askingOf(page) {
   }
 
   async function drawPinned(goesOn) {
-    const { pin, phi } = now(), name = page.view(), views = viewsAsked().map((view) => ({ ...view, have: {} }));
+    const { pin, phi } = now(), views = viewsAsked().map((view) => ({ ...view, have: {} }));
     if (!pin) return;
     // With the scales of the present cam, or the two could not be compared.
     const answer = await queue.question({ ask: "views", language: page.config.language, task: pin, phi, views, values: true, told: false, hold: last.hold });
     if (!goesOn() || answer.lost) return;
     // What cannot be drawn cannot be pinned.
     if (!answer.ok) return state.set({ pin: null });
-    page.pinned = { name, values: answer.values, view: answer.views[0] };
+    page.pinned = { views: answer.views.map((view) => ({ ...view, pane: views.find(({ name }) => name === view.name).pane })), values: answer.values };
     page.showPinned();
     page.showValueTables();
   }
 
   async function writeAddress() {
-    const hash = await page.address.write({ ...now(), ...unanswered });
+    const hash = await page.address.write(page.place(unanswered));
     try {
       if (hash && hash !== location.hash) history.replaceState(null, "", hash);
     } catch { /* a page in a frame may not */ }
   }
 
-  return { ask, take, rest, writeAddress, scaleOf };
+  return { ask, take, rest, writeAddress, viewsAsked };
 }

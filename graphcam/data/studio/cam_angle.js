@@ -1,28 +1,36 @@
 // The cam angle: its slider, the mechanism at it, the cam that turns by itself or by hand.
 "use strict";
 
-// Degrees in a millisecond: ten turns a minute.
-const SPEED = 0.06;
+// Degrees in a millisecond: six turns a minute.
+const SPEED = 0.036;
 const halfDegree = (degrees) => ((Math.round(2 * degrees) / 2) % 360 + 360) % 360;
 
 function camAngleOf(page) {
   const { at, word, state, last, decimal } = page, now = state.get;
   const turning = { on: false, before: null, exact: 0 };
-  let turned = null, sparks = [];
+  const curves = new WeakMap();
+  let sparks = [];
 
   // --- what is shown of it ----------------------------------------------------------------------------------------------
 
-  function showScene() {
+  function showScene(pane) {
     const data = last.mechanism;
     if (!data) return;
-    if (turned?.data !== data) turned = { data, ...mechanismOf(at("scene"), data) };
-    turned.show(turned.placeAt(now().phi));
-    page.stage.look("mechanism", data.box, { held: Boolean(page.hand) });
+    if (pane.turned?.data !== data) pane.turned = { data, ...mechanismOf(pane.at("scene"), data) };
+    pane.turned.show(pane.turned.placeAt(now().phi));
+    pane.stage.look({ name: "mechanism", frame: data.box }, { held: Boolean(page.hand) });
+  }
+
+  // All that goes with the cam angle and needs no answer of the engine.
+  function follow() {
+    for (const pane of page.panes) if (pane.names().includes("mechanism")) showScene(pane);
+    if (page.turns()) showLive();
+    page.showHands();
   }
 
   // The mechanism has no steps: its panel says what is read off at this angle.
   function showLive() {
-    const data = last.mechanism, panel = at("panel-step");
+    const data = last.mechanism, panel = at("panel-step"), { turned } = page.panes[0];
     if (!data || !turned) return;
     if (panel.shows !== data || !panel.querySelector(".live")) buildLive(data, panel);
     const k = turned.placeAt(now().phi);
@@ -57,14 +65,50 @@ function camAngleOf(page) {
     if (last.mechanism) page.strip.mechanism(last.mechanism, phi);
   }
 
-  // The cam angle in a diagram over it.
-  function showCursor(handles) {
-    const layer = page.stage.layers.cursors, frame = page.stage.whole();
+  // The cam angle in the diagrams over it: one line through all of them, and what each comes to there.
+  function showCursor(pane, handles) {
+    const layer = pane.stage.layers.cursors, frame = pane.stage.whole(), knob = handles.find(({ id, shape }) => shape === "x" && isOwn(id));
     layer.replaceChildren();
-    for (const handle of handles) {
-      if (handle.axes[0]?.path !== "phi" || handle.shape !== "x" || !frame) continue;
-      drawSvg("path", "cursor", { d: `M${handle.at[0]} ${frame[1] - frame[3]}v${3 * frame[3]}` }, layer);
+    if (!knob || !frame) return;
+    const [x] = knob.at, own = page.picture(pane), side = x > frame[0] + 0.75 * frame[2] ? "end" : "start";
+    drawSvg("path", "cursor", { d: `M${x} ${frame[1] - frame[3]}v${3 * frame[3]}` }, layer);
+    for (const { name, ordinate } of own?.down ? own.views : []) {
+      const y = heightOf(pane, name, x), at = y + own.down[name];
+      if (`${name}/phi` !== knob.id) drawSvg("circle", "here", { cx: x, cy: at, r: 1 }, layer);
+      const said = shortNumber(Number((-y * ordinate.per_mm).toPrecision(3)), decimal()) + (ordinate.unit === "°" ? "°" : "");
+      drawSvg("text", "reading", { x, y: at, "text-anchor": side, dx: side === "end" ? "-.9em" : ".9em", dy: y > 0 ? "1.2em" : "-.5em" }, layer).textContent = said;
     }
+  }
+
+  // --- handles as they stand on the page -----------------------------------------------------------------------------------
+
+  // The cam angle on the cam itself and on the curves of the diagrams: the page knows where.
+  const isOwn = (id) => id === "mechanism/phi" || DIAGRAMS.some((name) => id === `${name}/phi`);
+
+  function heightOf(pane, name, x) {
+    const view = pane.gallery.view(name);
+    if (!view) return 0;
+    if (!curves.has(view)) curves.set(view, curvesOf(view));
+    return heightAt(curves.get(view), x);
+  }
+
+  // Those of a pane; of diagrams one under another the cam angle has one for all, and a border stands in the lowest but one.
+  function handlesIn(pane, handles) {
+    const names = pane.names(), down = page.picture(pane)?.down || {}, borders = names.includes("displacement") ? "displacement" : names.at(-1);
+    const isWanted = ({ id, view }) => names.length < 2 || (id.endsWith("/phi") ? view === names[0] : id.includes("/border") ? view === borders : id.endsWith("/lift"));
+    return handles.filter((handle) => names.includes(handle.view) && isWanted(handle)).flatMap((handle) => {
+      if (handle.axes[0].path === "phi") {
+        if (isOwn(handle.id)) handle = withAngle(pane, handle);
+        else if (turning.on) return [];
+      }
+      return [{ ...handle, at: [handle.at[0], handle.at[1] + (down[handle.view] || 0)] }];
+    });
+  }
+
+  function withAngle(pane, handle) {
+    if (handle.shape === "turn") return onCam(handle);
+    const { phi } = now(), x = phi / last.degrees_per_mm;
+    return { ...handle, at: [x, heightOf(pane, handle.view, x)], axes: [{ ...handle.axes[0], value: Math.round(phi * 10) / 10 }] };
   }
 
   // --- by hand -----------------------------------------------------------------------------------------------------------
@@ -82,7 +126,11 @@ function camAngleOf(page) {
     };
   }
 
-  function turnTo([x, y]) {
+  function turnTo({ handle, to: [x, y], fine }) {
+    if (handle !== "mechanism/phi") {
+      const by = fine ? 10 : 2, degrees = Math.round(x * last.degrees_per_mm * by) / by;
+      return state.set({ phi: Math.max(0, Math.min(360, degrees)) });
+    }
     const degrees = (Math.atan2(-y, x) - markAngle()) * 180 / Math.PI;
     state.set({ phi: halfDegree(last.mechanism.sigma * degrees) });
   }
@@ -100,7 +148,6 @@ function camAngleOf(page) {
   function markTurning() {
     document.body.classList.toggle("turning", turning.on);
     for (const name of ["title", "aria-label"]) at("play").setAttribute(name, word(turning.on ? "pause" : "play"));
-    page.hands.away(turning.on);
   }
 
   function turn() {
@@ -118,5 +165,5 @@ function camAngleOf(page) {
     page.ask();
   }
 
-  return { showScene, showLive, showPhi, showCursor, onCam, turnTo, turn, still, turning: () => turning.on };
+  return { showScene, showLive, showPhi, showCursor, follow, isOwn, handlesIn, turnTo, turn, still, turning: () => turning.on };
 }

@@ -51,7 +51,8 @@ function changingOf(page) {
   }
 
   function escape() {
-    if (page.hands.held()) page.hands.cancel();
+    const held = page.heldHands();
+    if (held) held.cancel();
     else if (page.hand) release(true);
     else queue.after(() => leave() || state.escapeBurst());
   }
@@ -66,7 +67,7 @@ function changingOf(page) {
 
   function takeHold() {
     page.still();
-    page.hand = { before: null, scale: page.scaleOf(page.view()), drag: null, changes: null };
+    page.hand = { before: null, scales: Object.fromEntries(page.viewsAsked().map((view) => [view.name, view.px_per_mm])), drag: null, changes: null };
     if (!queue.busy()) begun(page.hand);
     document.body.classList.add("held");
   }
@@ -74,7 +75,7 @@ function changingOf(page) {
   // What a hand makes of the task at which it took hold.
   function aimOf(hand) {
     const { before, phi, station, drag, changes } = begun(hand);
-    return drag ? { task: before.task, drag, phi, station } : { task: changes ? withChanges(before.task, changes) : before.task };
+    return drag && !page.isOwn(drag.handle) ? { task: before.task, drag, phi, station } : { task: changes ? withChanges(before.task, changes) : before.task };
   }
 
   // It ends with the pointer, not with an answer.
@@ -95,16 +96,19 @@ function changingOf(page) {
     return true;
   }
 
+  // The cam angle is moved by the page; what else goes with it is asked for.
   function drag(to) {
     page.hand.drag = to;
-    if (!page.turns()) return page.ask();
-    begun(page.hand);
-    page.turnTo(to.to);
+    if (page.isOwn(to.handle)) {
+      begun(page.hand);
+      page.turnTo(to);
+      if (!last.handles.some((handle) => handle.axes[0].path === "phi" && !page.isOwn(handle.id))) return;
+    }
+    page.ask();
   }
 
-  // The cam is turned by the page.
   function drop(cancelled) {
-    if (page.turns()) page.hand.drag = null;
+    if (page.isOwn(page.hand.drag?.handle)) page.hand.drag = null;
     letGo(cancelled);
   }
 

@@ -32,11 +32,19 @@ function filesOf(page) {
     load(answer.task);
   }
 
-  async function write(kind) {
+  // Files of others are replaced only when that is asked for.
+  function askAbout({ others, folder }, kind) {
+    said(word("others_there").replace("{folder}", folder).replace("{files}", others.slice(0, 5).join(", ") + (others.length > 5 ? " ..." : "")), true);
+    at("written").append(" ", make("button", { type: "button", id: "replace", text: word("replace_them"), onclick: () => write(kind, true) }));
+    at("replace").focus();
+  }
+
+  async function write(kind, replace = false) {
     said(word("writing"));
     try {
-      const answer = await wire.write(kind, now().task);
-      if (answer.error) refused(typeof answer.error === "string" ? { error: { message: answer.error } } : answer);
+      const answer = await wire.write(kind, now().task, replace);
+      if (answer.others) askAbout(answer, kind);
+      else if (answer.error) refused(typeof answer.error === "string" ? { error: { message: answer.error } } : answer);
       else said(word("written").replace("{folder}", answer.folder).replace("{files}", answer.files.join(", ")));
     } catch (error) {
       said(String(error.message || error), true);
@@ -44,7 +52,7 @@ function filesOf(page) {
   }
 
   async function copyLink() {
-    const hash = await page.address.write(now());
+    const hash = await page.address.write(page.place());
     await page.writeAddress();
     try { await navigator.clipboard.writeText(location.href); } catch { /* the address line has it */ }
     const text = word(hash ? "link_copied" : "link_too_long");

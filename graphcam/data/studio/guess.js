@@ -112,7 +112,7 @@ function guessOf(studio, asked, letter, moved) {
     } else if (!marks && !asked.free) drawSvg("path", "way", { d: `M${asked.way.map((point) => point.join(" ")).join("L")}` }, layer);
     if (!at.answer) return;
     line(at.guess, at.answer, "apart");
-    drawSvg("circle", "answer", { cx: at.answer[0], cy: at.answer[1], r: 7 / stage.scale(stage.frame()) }, layer);
+    drawSvg("circle", "answer", { cx: at.answer[0], cy: at.answer[1], r: 7 / stage.scale({ frame: stage.frame() }) }, layer);
   }
 
   // --- hand and keys

@@ -30,7 +30,7 @@ function liftChanges(phases, k, lift) {
     .filter((_, j) => j === k || other(phases[j].kind)));
 }
 
-function phasesOf({ change, slide, refuse, word, decimal }) {
+function phasesOf({ change, slide, refuse, isRefused, word, decimal }) {
   const bar = make("div", { class: "phase-bar" });
   const editor = make("div", { class: "phase-editor" });
   const error = make("p", { class: "error", id: "phases-error", role: "alert", hidden: true });
@@ -40,6 +40,9 @@ function phasesOf({ change, slide, refuse, word, decimal }) {
 
   const total = () => phases.reduce((sum, phase) => sum + phase.angle, 0) || 360;
   const start = (k) => phases.slice(0, k).reduce((sum, phase) => sum + phase.angle, 0);
+
+  // The phases to which something is done: what was refused is none of them.
+  const standing = () => (phases = isRefused() ? field.phases : phases);
 
   // --- the bar ------------------------------------------------------------------------------------------------------------
 
@@ -61,9 +64,10 @@ function phasesOf({ change, slide, refuse, word, decimal }) {
       const value = valueByKey(axis, event.key, event.shiftKey);
       if (value === undefined) return;
       event.preventDefault();
-      change(borderChanges(phases, k, value, event.shiftKey), true);
+      row.input = input;
+      change(borderChanges(standing(), k, value, event.shiftKey), true);
     });
-    input.addEventListener("input", () => change(borderChanges(phases, k, Number(input.value)), true));
+    input.addEventListener("input", () => change(borderChanges(standing(), k, Number(input.value)), true));
     const border = make("div", { class: "border", "data-border": k }, input);
     border.addEventListener("pointerdown", (event) => drag(event, border, k));
     return border;
@@ -72,9 +76,10 @@ function phasesOf({ change, slide, refuse, word, decimal }) {
   function drag(event, border, k) {
     if (event.button) return;
     event.preventDefault();
-    const box = bar.getBoundingClientRect(), turn = total(), before = phases;
+    const box = bar.getBoundingClientRect(), turn = total(), before = standing();
     border.setPointerCapture(event.pointerId);
-    border.querySelector("input").focus({ preventScroll: true });
+    row.input = border.querySelector("input");
+    row.input.focus({ preventScroll: true });
     const move = (now) => slide(borderChanges(before, k, (now.clientX - box.left) / box.width * turn, now.shiftKey));
     border.addEventListener("pointermove", move);
     border.addEventListener("lostpointercapture", () => border.removeEventListener("pointermove", move), { once: true });
@@ -147,8 +152,8 @@ function phasesOf({ change, slide, refuse, word, decimal }) {
     const path = `motion.phases[${chosen}]`, { ratio } = field;
     return [
       make("p", { class: "label", text: `${phase.symbol} ${phase.name}` }),
-      phases.length > 1 && numberOf("angle_of_phase", phase.angle, "°", (angle) => angleChanges(phases, chosen, angle)),
-      phase.kind !== "dwell" && numberOf("lift", phase.lift, field.lift?.unit || "", (lift) => liftChanges(phases, chosen, lift)),
+      phases.length > 1 && numberOf("angle_of_phase", phase.angle, "°", (angle) => angleChanges(standing(), chosen, angle)),
+      phase.kind !== "dwell" && numberOf("lift", phase.lift, field.lift?.unit || "", (lift) => liftChanges(standing(), chosen, lift)),
       phase.kind !== "dwell" && lawOf(phase, path),
       ratio?.laws.includes(phase.law) && numberOf("ratio", phase.ratio ?? 1, "", (value) => ({ [`${path}.ratio`]: value })),
       editButtons(phase),

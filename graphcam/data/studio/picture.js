@@ -2,42 +2,84 @@
 "use strict";
 
 function pictureOf(page) {
-  const { at, word, state, last, decimal, stage, strip, sizes } = page, now = state.get;
+  const { at, word, state, last, decimal, strip, sizes } = page, now = state.get;
 
   // --- the drawing and its handles ---------------------------------------------------------------------------------------
 
+  // What is drawn in a pane: a view, or several one under another.
+  function picture(pane) {
+    const views = pane.names().map(pane.gallery.view).filter(Boolean);
+    if (pane === page.panes[0]) return page.drawn();
+    if (views.length < 2) return views[0];
+    if (pane.stack?.parts.length !== views.length || views.some((view, k) => view !== pane.stack.parts[k])) pane.stack = { parts: views, ...stackOf(views) };
+    return pane.stack;
+  }
+
   function showDrawing() {
-    const own = page.drawn(), name = page.view(), k = page.currentStep();
+    const names = page.beside();
     at("board").hidden = !now().board;
     document.body.classList.toggle("boarding", now().board);
     document.body.classList.toggle("turnable", page.turns());
     at("all").setAttribute("aria-pressed", now().board);
     for (const id of ["closer", "farther", "fit"]) at(id).disabled = now().board;
-    strip.select(name, now().board, (each) => now().hidden.includes(each));
-    if (page.turns()) page.showScene();
-    else if (own) {
-      stage.look(name, own.frame, { held: Boolean(page.hand) });
-      const step = own.steps[own.order[k]];
-      // A scale that is found by drawing is told from the step on that finds it.
-      stage.fill(own, step?.heading || own.title || page.titleOf(name), step?.title || "");
-      stage.show(k, now().part);
-    }
+    strip.select(page.view(), names, now().board, (each) => now().hidden.includes(each));
+    showPanes(names);
+    page.panes.forEach(showPane);
     showStep();
     showHands();
   }
 
-  function showHands() {
-    const own = (last.handles || []).filter((handle) => handle.view === page.view());
-    const wanted = now().board || now().inert ? [] : own.map(page.onCam);
-    page.hands.show(wanted);
-    page.hands.away(Boolean(page.failed) || page.turning());
-    page.showCursor(wanted);
+  // Side by side or one above the other, as both are seen larger; a hand that is down finds them as they were.
+  function showPanes(names) {
+    const { clientWidth, clientHeight } = at("desk"), frames = page.panes.map((pane) => (pane.names().includes("mechanism") ? last.mechanism?.box : picture(pane)?.frame) || [0, 0, ...pane.usual]);
+    const seen = (wide, high) => Math.min(...frames.map(([, , w, h]) => Math.min(wide / w, high / h)));
+    const split = !names.length ? "" : page.phone.matches || seen(clientWidth, clientHeight / 2) > seen(clientWidth / 2, clientHeight) ? "rows" : "columns";
+    if (!page.hand && at("desk").dataset.split !== split) {
+      at("desk").dataset.split = split;
+      for (const pane of page.panes) pane.stage.resized();
+    }
+    at("panes").setAttribute("aria-pressed", names.length > 0);
+    at("panes").disabled = now().board;
+    chooseBeside();
   }
 
-  // The pinned cam stands behind where it is drawn in this view.
+  function chooseBeside() {
+    const views = page.viewNames().filter(({ name }) => name !== page.view() && !now().hidden.includes(name)), list = at("beside");
+    const options = [["", word("beside_usual")], ["diagrams", word("beside_diagrams")], ...views.map(({ name, title }) => [name, title])];
+    if (list.dataset.options !== JSON.stringify(options)) {
+      list.dataset.options = JSON.stringify(options);
+      list.replaceChildren(...options.map(([value, text]) => make("option", { value, text })));
+    }
+    list.value = now().beside ?? "";
+  }
+
+  function showPane(pane, k) {
+    const held = Boolean(page.hand), [name] = pane.names(), own = picture(pane);
+    if (name === "mechanism") return page.showScene(pane);
+    if (!own) return;
+    pane.stage.look(own, { held });
+    const current = k ? own.order.length - 1 : page.currentStep(), step = own.steps[own.order[current]];
+    // A scale that is found by drawing is told from the step on that finds it.
+    pane.stage.fill(own, step?.heading || own.title || page.titleOf(name), (!k && step?.title) || "");
+    if (!k) pane.stage.show(current, now().part);
+  }
+
+  function showHands() {
+    const found = now().board || now().inert ? [] : last.handles || [];
+    for (const pane of page.panes) {
+      const wanted = page.handlesIn(pane, found);
+      pane.hands.show(wanted);
+      pane.hands.away(Boolean(page.failed));
+      page.showCursor(pane, wanted);
+    }
+  }
+
+  // The pinned cam stands behind where it is drawn in these views.
   function showPinned() {
-    const { pinned } = page, seen = now().pin && pinned?.view && pinned.name === page.view();
-    stage.pin(seen ? pinned.view : null, page.drawn());
+    page.panes.forEach((pane, k) => {
+      const names = pane.names(), views = (now().pin && page.pinned?.views.filter((view) => view.pane === k && names.includes(view.name))) || [];
+      pane.stage.pin(views.length > 1 ? stackOf(views) : views[0], picture(pane));
+    });
   }
 
   // --- the step ------------------------------------------------------------------------------------------------------------
@@ -153,5 +195,5 @@ function pictureOf(page) {
 
   const announce = (text) => (at("announcement").textContent = text);
 
-  return { showDrawing, showHands, showPinned, showStatus, showPanels, showValueTables, showAnswer, showAll, notice, announce };
+  return { picture, showDrawing, showHands, showPinned, showStatus, showPanels, showValueTables, showAnswer, showAll, notice, announce };
 }

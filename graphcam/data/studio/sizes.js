@@ -3,7 +3,7 @@
 
 function sizesOf(at, acts) {
   const { change, slide, leave, refused, word, decimal } = acts;
-  const rows = new Map(), phases = phasesOf({ ...acts, refuse: () => refuseText(phases.row) });
+  const rows = new Map(), phases = phasesOf({ ...acts, isRefused: () => errorAt !== null, refuse: () => refuseText(phases.row) });
   let shape = "", shown = "", errorAt = null;
 
   // What is seldom moved is closed at first.
@@ -204,7 +204,7 @@ function sizesOf(at, acts) {
     errorAt = null;
     row.error.hidden = true;
     row.element.classList.remove("wrong");
-    row.input?.removeAttribute("aria-invalid");
+    for (const input of row.element.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
   }
 
   // Whether there is a field for the error; the value stays as it was typed.  An error that belongs to none is told where

@@ -1,8 +1,12 @@
-// The drawing, large: the steps of a view as groups of SVG, the frame through which they are seen, millimetres and pixels.
+// A stage: the steps of a view as groups of SVG, the frame through which they are seen, millimetres and pixels.
 "use strict";
 
 // How long the frame glides to another one [ms]; what fills less of it than this is looked at more closely.
 const GLIDE = 300, TOO_SMALL = 0.6;
+
+// Several views one under another that would be seen smaller than this are looked at from the top, as wide as the stage
+// [pixels for a millimetre].
+const LEGIBLE = 0.6;
 
 // How many times as large as all of it a detail may be seen.
 const CLOSEST = 20;
@@ -44,6 +48,7 @@ function fillSteps(parent, view, wanted = () => true) {
       group.shown = step.svg;
       changed += 1;
     }
+    if (group.down !== step.down) group.setAttribute("transform", `translate(0 ${group.down = step.down})`);
     old.delete(id);
     return group;
   });
@@ -51,6 +56,44 @@ function fillSteps(parent, view, wanted = () => true) {
   const inOrder = groups.every((group, k) => parent.children[k] === group);
   if (!inOrder) parent.replaceChildren(...groups);
   return changed + old.size;
+}
+
+// --- several views as one, one under another ---------------------------------------------------------------------------------
+
+const GAP = 4;
+
+// How far down each stands [mm], and a frame about all.
+function stackOf(views) {
+  const left = Math.min(...views.map(({ frame }) => frame[0])), right = Math.max(...views.map(({ frame }) => frame[0] + frame[2]));
+  const top = views[0].frame[1], order = [], steps = {}, down = {};
+  let end = top - GAP;
+  for (const { name, frame, ...view } of views) {
+    down[name] = end + GAP - frame[1];
+    end = down[name] + frame[1] + frame[3];
+    for (const id of view.order) {
+      order.push(`${name}/${id}`);
+      steps[`${name}/${id}`] = { ...view.steps[id], down: down[name] };
+    }
+  }
+  const name = views.map((view) => view.name).join("+"), title = views.map((view) => view.title).join("; ");
+  return { name, title, views, order, steps, down, frame: [left, top, right - left, end - top] };
+}
+
+// The lines for which a view was drawn, as points; y downwards.
+function curvesOf(view) {
+  const paths = view.order.flatMap((id) => [...view.steps[id].svg.matchAll(/class="line result"[^>]* d="([^"]*)"/g)]);
+  return paths.flatMap(([, path]) => path.split("M").slice(1).map((part) => part.split("L").map((point) => point.split(" ").map(Number))));
+}
+
+// How high they are over a place of a common axis; the later ones are drawn over the earlier ones.
+function heightAt(curves, x) {
+  for (const points of curves.toReversed()) {
+    const k = points.findIndex(([end], j) => j && points[j - 1][0] <= x && x <= end && points[j - 1][0] < end);
+    if (k < 0) continue;
+    const [[x1, y1], [x2, y2]] = [points[k - 1], points[k]];
+    return y1 + (y2 - y1) * (x - x1) / (x2 - x1);
+  }
+  return 0;
 }
 
 const WHOLE = { caption: "", tools: [], draws: [], lit: [], moves: [] };
@@ -97,10 +140,12 @@ function stageOf(at) {
 
   function setFrame(frame) {
     frames.set(shown, frame);
-    document.body.classList.toggle("detailed", details.has(shown));
+    at("stage").classList.toggle("detailed", details.has(shown));
     svg().setAttribute("viewBox", frame.join(" "));
     // Nothing is drawn thinner than can be seen.
-    svg().style.setProperty("--pixel", `${1 / fit(frame).scale}px`);
+    const { scale } = fit(frame), [wide, high] = size(), letter = Math.max(12, Math.min(24, wide / 36, high / 20));
+    svg().style.setProperty("--pixel", `${1 / scale}px`);
+    svg().style.setProperty("--letter", `${letter / scale}px`);
     for (const moved of watching) moved();
   }
 
@@ -142,16 +187,26 @@ function stageOf(at) {
     setFrame([within(x - by.x + w / 2, left, wide) - w / 2, within(y - by.y + h / 2, top, high) - h / 2, w, h]);
   }
 
+  // What is seen first of a picture: all of it, or the top of one that is too high.
+  function firstOf({ frame, down }) {
+    const [wide, high] = size(), [x, y, w, h] = frame;
+    return !down || high / h >= Math.min(LEGIBLE, wide / w) ? frame : [x, y, w, w * high / wide];
+  }
+
   // A view through its frame, which stays while a hand is down, and else as long as it serves.
-  function look(name, wanted, { held = false, anew = false } = {}) {
-    const other = shown !== name;
+  function look(picture, { held = false, anew = false } = {}) {
+    const { name, frame: wanted } = picture, other = shown !== name;
     shown = name;
     wholes.set(name, wanted);
     if (anew) details.delete(name);
     at("drawing").toggleAttribute("hidden", name === "mechanism");
     at("scene").toggleAttribute("hidden", name !== "mechanism");
     const frame = frames.get(name);
-    if (details.has(name)) setFrame(frame);
+    const first = firstOf(picture);
+    if (!frame && first !== wanted) {
+      details.add(name);
+      setFrame(first);
+    } else if (details.has(name)) setFrame(frame);
     else if (!frame || (other && !held && mustMove(frame, wanted))) setFrame(wanted);
     else if (anew || (!held && mustMove(frame, wanted))) glideTo(wanted);
     else setFrame(frame);
@@ -173,14 +228,15 @@ function stageOf(at) {
     fillSteps(at("pinned"), view || { order: [], steps: {} }, (id) => view.steps[id].svg !== present?.steps[id]?.svg);
   }
 
+  const lookAnew = () => look({ name: shown, frame: wholes.get(shown) }, { anew: true });
   const resized = () => shown && frames.get(shown) && setFrame(frames.get(shown));
 
   return {
-    look, fill, pin, toScreen, toDrawing, resized, zoomAbout, zoomFromMiddle, shift,
+    look, lookAnew, fill, pin, toScreen, toDrawing, resized, zoomAbout, zoomFromMiddle, shift,
     show: (current, part) => board?.show(current, part),
     point: (names) => board?.point(names),
     onMove: (moved) => watching.push(moved),
-    scale: (frame) => fit(frame).scale,
+    scale: (picture) => fit(firstOf(picture)).scale,
     frame: () => frames.get(shown),
     whole: () => wholes.get(shown),
     forget() {

@@ -59,10 +59,11 @@ function stripOf(at, open) {
   }
 
   // The view that is large; none is while all are on the board, but one is there for the keys.
-  function select(name, boarding, locked) {
+  function select(name, beside, boarding, locked) {
     const moved = !boarding && cards.strip.get(name)?.getAttribute("aria-selected") === "false";
     for (const [own, card] of cards.strip) {
       card.setAttribute("aria-selected", own === name && !boarding);
+      card.classList.toggle("beside", beside.includes(own));
       card.tabIndex = own === name ? 0 : -1;
       card.disabled = cards.board.get(own).disabled = locked(own);
     }

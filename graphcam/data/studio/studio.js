@@ -8,10 +8,10 @@
   const phone = matchMedia("(max-width: 51.99rem)");
 
   const state = stateOf({
-    name: config.name, task: config.task, view: config.view ?? null, step: null, part: null, phi: USUAL_PHI, station: null,
+    name: config.name, task: config.task, view: config.view ?? null, beside: config.beside ?? null, swept: null, step: null, part: null, phi: USUAL_PHI, station: null,
     pin: null, mode: "play", panel: phone.matches ? "sizes" : "step", board: false,
     // For the modes: the last construction that is shown, whether sizes are moved, which views and panels are locked.
-    upto: null, inert: false, hidden: [],
+    upto: config.exercise?.upto || null, inert: false, hidden: [],
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
     // In a tour: what the person was at before.
@@ -19,14 +19,26 @@
   });
   const now = state.get, stats = [];
   const wire = openWire(config, (text) => page.notice(word("starting").replace("{state}", text)));
+  // Two panes of one kind, what is looked at and what stands beside it: how wide and high a picture usually is [mm], and
+  // how many letters go beside one another.
+  const paneOf = (suffix, names, more) => {
+    const own = (id) => at(id + suffix);
+    return { at: own, stage: stageOf(own), gallery: galleryOf(), names, ...more };
+  };
+  const panes = [
+    paneOf("", (main = page.view()) => [main], { usual: [190, 180], letters: 60 }),
+    paneOf("-beside", (main) => page.beside(main), { usual: [390, 520], letters: 40 }),
+  ];
   const page = {
-    config, words, at, word, state, wire, stats, shown: {}, last: {}, hand: null, pinned: null, failed: null,
+    config, words, at, word, state, wire, stats, phone, panes, shown: {}, last: {}, hand: null, pinned: null, failed: null,
     queue: queueOf(wire.ask, stats), address: addressOf(config), wide: matchMedia("(min-width: 70rem)"),
-    large: galleryOf(), small: { strip: galleryOf(), board: galleryOf() }, stage: stageOf(at),
+    large: panes[0].gallery, small: { strip: galleryOf(), board: galleryOf() }, stage: panes[0].stage,
     decimal: () => page.last.mechanism?.decimal || ".",
     forget() {
-      page.large.forget();
-      page.stage.forget();
+      for (const { gallery, stage } of panes) {
+        gallery.forget();
+        stage.forget();
+      }
     },
   };
   const { decimal } = page;
@@ -38,15 +50,20 @@
     sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), leave: () => page.leave(), refused: () => page.showStatus(), word, decimal }),
     stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
     showValues: valuesPanelOf(at("panel-values"), words),
-    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), decimal, language: config.language }),
+    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, shown: () => page.last, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
-  page.hands = handsOf(at, page.stage, {
-    grab: page.grab, drag: page.drag, drop: page.drop, key: (changes) => page.changeAny(changes, true), word,
-    written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
-    type: (handle, knob) => typeNumbers(at("typed"), handle, knob, words, decimal(), page.changeAny),
-  });
+  for (const pane of panes) {
+    // A hand knows nothing of what stands above its view.
+    const drag = ({ handle, to: [x, y], ...more }) => page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
+    pane.hands = handsOf(pane.at, pane.stage, {
+      grab: page.grab, drag, drop: page.drop, key: (changes) => page.changeAny(changes, true), word,
+      written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
+      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), page.changeAny),
+    });
+  }
+  page.heldHands = () => panes.map(({ hands }) => hands).find((hands) => hands.held());
   Object.assign(page, pictureOf(page), filesOf(page));
 
   // --- what follows a change of the state --------------------------------------------------------------------------------
@@ -54,9 +71,9 @@
   state.subscribe((changed) => {
     const is = (...names) => names.some((name) => changed.includes(name));
     if (is("past", "hidden")) page.showStatus();
-    if (is("step", "part", "board", "view", "inert", "hidden", "only")) page.showDrawing();
+    if (is("step", "part", "board", "view", "beside", "inert", "hidden", "only")) page.showDrawing();
     if (is("phi", "view")) page.showPhi();
-    if (is("phi") && page.turns()) page.showDrawing();
+    if (is("phi")) page.follow();
     if (is("panel", "inert", "hidden")) page.showPanels();
     if (is("pin")) {
       page.pinned = null;
@@ -66,8 +83,8 @@
     }
     if (wire.tell && is("task", "view")) wire.tell({ task: now().task, view: now().view });
     if (page.hand?.drag || page.accepting) return;
-    if (is("task", "view", "board", "upto", "station", "inert") || (is("phi") && !page.turning())) page.ask();
-    else if (is("step", "part", "pin", "mode", "hidden")) page.rest();
+    if (is("task", "view", "beside", "board", "upto", "station", "inert") || (is("phi") && !page.turning())) page.ask();
+    else if (is("step", "part", "pin", "mode", "hidden", "panel", "swept")) page.rest();
   });
 
   function togglePin() {
@@ -75,31 +92,31 @@
     if (now().pin && !phone.matches && now().panel === "step") state.set({ panel: "values" });
   }
 
-  function fit() {
-    const frame = page.turns() ? page.last.mechanism?.box : page.drawn()?.frame;
-    if (frame) page.stage.look(page.view(), frame, { anew: true });
-  }
+  const fit = () => panes.forEach(({ stage }) => stage.whole() && stage.lookAnew());
 
   const zoom = (factor) => page.hand || now().board || !page.stage.frame() || page.stage.zoomFromMiddle(factor);
-  gesturesOf(at("stage"), {
-    onDrawing: (x, y) => {
-      const [right, down] = page.stage.toDrawing(x, y);
-      return { x: right, y: down };
-    },
-    zoomAbout: page.stage.zoomAbout, shift: page.stage.shift,
-    // The wheel is meant over a knob too; a page around this one is scrolled with it.
-    wanted: ({ type, target, ctrlKey }) => !page.hand && !now().board && page.stage.frame()
-      && (type === "wheel" ? target.closest(".canvas, .hands") && (ctrlKey || config.transport !== "parent") : target.closest(".canvas")),
-  });
+  for (const { at: own, stage } of panes) {
+    gesturesOf(own("stage"), {
+      onDrawing: (x, y) => {
+        const [right, down] = stage.toDrawing(x, y);
+        return { x: right, y: down };
+      },
+      zoomAbout: stage.zoomAbout, shift: stage.shift,
+      // The wheel is meant over a knob too; a page around this one is scrolled with it.
+      wanted: ({ type, target, ctrlKey }) => !page.hand && !now().board && stage.frame()
+        && (type === "wheel" ? target.closest(".canvas, .hands") && (ctrlKey || config.transport !== "parent") : target.closest(".canvas")),
+    });
+  }
 
   // --- buttons and keys ----------------------------------------------------------------------------------------------------
 
   const clicks = {
     undo: () => page.travel("undo"), redo: () => page.travel("redo"), pin: togglePin, theme: switchTheme, fit,
-    closer: () => zoom(1.25), farther: () => zoom(0.8),
+    closer: () => zoom(1.25), farther: () => zoom(0.8), panes: () => now().board || state.set({ beside: page.beside().length ? "" : now().beside === null ? "diagrams" : null }),
     all: () => now().hidden.includes("board") || state.set({ board: !now().board }), previous: page.back, next: page.on, play: page.turn,
   };
   for (const [id, act] of Object.entries(clicks)) at(id).addEventListener("click", () => act());
+  at("beside").addEventListener("change", () => state.set({ beside: at("beside").value || null }));
   at("slider").addEventListener("input", () => page.go(Number(at("slider").value) - 1));
   at("pips").addEventListener("click", ({ target }) => target.dataset.step && page.go(Number(target.dataset.step)));
   at("phi").addEventListener("input", () => {
@@ -112,7 +129,7 @@
 
   const keys = {
     ArrowRight: page.on, ArrowLeft: page.back, Home: () => page.go(0), End: () => page.go(Infinity),
-    a: clicks.all, p: togglePin, 0: fit, "+": clicks.closer, "=": clicks.closer, "-": clicks.farther, " ": page.turn,
+    a: clicks.all, b: clicks.panes, p: togglePin, 0: fit, "+": clicks.closer, "=": clicks.closer, "-": clicks.farther, " ": page.turn,
   };
   const shifted = { ArrowRight: page.wholeOn, ArrowLeft: page.wholeBack };
 
@@ -149,6 +166,7 @@
 
   function setMode(name) {
     if (name === now().mode || !isOpen(name)) return;
+    page.still();
     studioModes[now().mode]?.leave(studio);
     studio.panel.card(null);
     state.set({ mode: name });
@@ -164,7 +182,7 @@
   }
 
   const studio = {
-    config, words, state, stats, shown: page.shown, stage: page.stage, ask: page.queue.question, setMode,
+    config, words, state, stats, shown: page.shown, stage: page.stage, panes, ask: page.queue.question, setMode,
     announce: page.announce, open: page.open, go: page.go, load: page.load, draw: page.showAll, change: page.changeAny,
     panel: {
       card(element) {
@@ -181,8 +199,8 @@
 
   // Another state as a whole, from an address, a file or the page around this one: resolves to whether it can be drawn.
   const wantWhole = (whole) => new Promise((done) => {
-    const { task, name } = now(), anew = { view: null, step: null, part: null, phi: USUAL_PHI, station: null };
-    page.want(() => ({ forget: true, task, name, ...anew, ...whole })).done = done;
+    const { task, name } = now(), anew = { view: null, beside: null, step: null, part: null, phi: USUAL_PHI, station: null, swept: null };
+    page.want(() => ({ forget: true, task, name, ...anew, ...whole, ...(whole.exercise && { upto: whole.exercise.upto || null }) })).done = done;
   });
   page.wantWhole = wantWhole;
 
@@ -200,25 +218,30 @@
   }
 
   function resized() {
-    page.stage.resized();
+    for (const { stage } of panes) stage.resized();
     page.showPanels();
-    if (!page.hand && page.drawn()) page.ask();
+    page.showDrawing();
+    if (!page.hand && page.last.names) page.ask();
   }
 
   if (at("builtin")) at("builtin").value = config.name;
   const { mode, ...found } = (await page.address.read(location.hash)) || {};
   if (config.first && !found.task) {
-    const asked = { views: [], told: true, values: true, form: true, warnings: true, mechanism: true };
+    const asked = { views: config.first.views.map((view) => ({ ...view, pane: Number(view.plain), px_per_mm: 1 })), told: true, values: true, form: true, warnings: true, mechanism: true };
     page.take({ ok: true, views: [], ...config.first }, { request: asked, hand: null, aim: {} });
   }
   page.showPanels();
   page.showStatus();
   const isShown = found.task ? wantWhole(found) : page.ask() || true;
-  new ResizeObserver(resized).observe(at("canvas"));
+  const sized = new ResizeObserver(resized);
+  for (const pane of panes) sized.observe(pane.at("canvas"));
   addEventListener("hashchange", fromAddress);
   wire.hear?.(fromAround);
   showModes();
   await isShown;
   setMode(now().exercise ? "exercise" : mode || "play");
   showModes();
+  // The page opens with a cam that turns, where nobody asked for an angle or for less motion.
+  const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  if (now().mode === "play" && found.phi === undefined && !isCalm && panes.some((pane) => pane.names().includes("mechanism"))) page.turn();
 })();

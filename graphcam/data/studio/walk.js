@@ -1,19 +1,40 @@
-// Where one is: the view, the step in it and its part.
+// Where one is: the view, what stands beside it, the step in it and its part.
 "use strict";
 
+// Beside what moves stand the diagrams over the cam angle, beside a construction that from which it is drawn.
+const DIAGRAMS = ["acceleration", "velocity", "displacement", "angle"];
+const SOURCES = {
+  acceleration: ["mechanism"], velocity: ["acceleration"], displacement: ["velocity"], angle: ["plan"], "arm angles": ["region"],
+  curvature: ["profile"], roller: ["arcs"], accelerations: ["plan"], "measured velocity": ["measured displacement"],
+  "measured acceleration": ["measured velocity"],
+};
+
 function walkOf(page) {
-  const { state, large, last, word } = page, now = state.get;
+  const { state, large, last, word, config } = page, now = state.get;
   // The steps among which the current one was last seen.
   let order = [];
 
   const named = (name) => last.names?.some((each) => each.name === name);
-  const usualView = () => ["combined", "region", "profile"].find(named) || last.names?.[0]?.name;
+  const isThere = (name) => !now().hidden.includes(name) && (name === "mechanism" ? Boolean(last.mechanism) : named(name));
+  const mainConstruction = () => ["combined", "region", "profile"].find(named) || last.names?.[0]?.name;
+  // Before the first answer it is taken for granted that something moves.
+  const usualView = () => (config.opening !== "construction" && (last.names ? isThere("mechanism") : !now().upto) ? "mechanism" : mainConstruction());
   const viewNames = () => [...(last.names || []), ...(last.mechanism ? [{ name: "mechanism", title: word("mechanism"), short: word("mechanism") }] : [])];
-  const view = (wanted = now().view) => (wanted === "mechanism" || named(wanted) ? wanted : usualView());
+  const view = (wanted = now().view) => (wanted === "mechanism" || named(wanted) ? wanted : wanted === "" ? mainConstruction() : usualView());
   const titleOf = (name) => viewNames().find((each) => each.name === name)?.title || "";
   const drawn = () => shownOf(large.view(view()));
   const shownOf = (own) => (own && now().only ? { ...own, order: own.order.filter((id) => now().only.includes(id)) } : own);
   const turns = () => view() === "mechanism";
+
+  // Names of the views beside one, none where it stands alone: as chosen, or as belongs to it.
+  function beside(main = view()) {
+    const { beside: chosen, board } = now();
+    // On a phone a construction has all of the room, until something is chosen.
+    if (!main || board || chosen === "" || (chosen === null && page.phone.matches && !["mechanism", "profile"].includes(main))) return [];
+    const there = (names) => names.filter((name) => name !== main && (last.names ? isThere(name) : name !== "mechanism"));
+    const wanted = [chosen === "diagrams" ? DIAGRAMS : chosen ? [chosen] : [], SOURCES[main] || DIAGRAMS, DIAGRAMS].map(there);
+    return wanted.find((names) => names.length) || [];
+  }
 
   // The step that is shown: that of the state, else the last one.  One that vanished leaves its place to the one before.
   function currentStep() {
@@ -38,9 +59,16 @@ function walkOf(page) {
   const wholeOn = () => go(now().part === null ? currentStep() + 1 : currentStep());
   const wholeBack = () => go(currentStep() - 1);
 
+  // What an address says: of the view that moves, too, and of a cam that turns a round angle.
+  const place = (more) => {
+    const { phi, own, ...shown } = { ...now(), ...more }, first = usualView() === "mechanism" ? "mechanism" : "";
+    const withView = (state) => ({ ...state, view: state.view ?? first });
+    return { ...withView(shown), own: own && withView(own), phi: Math.round(10 * phi) / 10 };
+  };
+
   function open(name) {
     state.set({ view: name === usualView() ? null : name, step: null, part: null, board: false });
   }
 
-  return { viewNames, view, titleOf, drawn, turns, currentStep, counts, go, on, back, wholeOn, wholeBack, open };
+  return { viewNames, view, beside, place, titleOf, drawn, turns, currentStep, counts, go, on, back, wholeOn, wholeBack, open };
 }

@@ -4,7 +4,13 @@
 // So many designs make a curve; they are asked for in pieces, between which a picture can be asked for.
 const DESIGNS = 200, PIECE = 25;
 
-function whatIfOf(element, words, { ask, state, change, decimal, language }) {
+// What the curves are called among the values of the cam on the page; the others are its sizes.
+const VALUE_NAMES = {
+  least_prime_radius: "minimum_prime_radius", pressure_angle_rise: "max_pressure_angle_rise_deg",
+  pressure_angle_return: "max_pressure_angle_return_deg", curvature_radius: "min_pitch_curvature_radius", max_v: "max_v",
+};
+
+function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, language }) {
   const size = make("select", { id: "sweep-size", "data-key": "sweep-size" });
   const charts = make("div", { class: "charts" }), both = make("div");
   const pin = make("button", { type: "button", class: "pins", text: words.pin, onclick: () => document.getElementById("pin").click() });
@@ -19,7 +25,7 @@ function whatIfOf(element, words, { ask, state, change, decimal, language }) {
     const optionsOf = (all) => JSON.stringify(all.map((field) => [field.path, field.name])), same = optionsOf(found) === optionsOf(fields);
     fields = found;
     if (same) return;
-    const before = size.value;
+    const before = state().swept ?? size.value;
     size.replaceChildren(...fields.map((field) => make("option", { value: field.path, text: field.name })));
     const wanted = fields.find((field) => field.path === before) || fields.find((field) => /offset|distance/.test(field.path)) || fields[0];
     if (wanted) size.value = wanted.path;
@@ -60,6 +66,14 @@ function whatIfOf(element, words, { ask, state, change, decimal, language }) {
 
   const written = (value, unit) => `${shortNumber(Number(value.toPrecision(4)), decimal())} ${unit}`.replace(" °", "°").trim();
 
+  // The curves are exact, and rounded is nothing; the cam on the page has sizes that were adopted.
+  function saidOf({ id, unit }, here) {
+    const { values = [], sizes = {} } = shown(), value = values.find((each) => each.id === VALUE_NAMES[id]);
+    const own = VALUE_NAMES[id] ? value && Math.abs(value.exact) : sizes[id], exact = here === null ? "" : written(here, unit);
+    const adopted = own === null || own === undefined ? exact : written(id === "curvature_radius" && here < 0 ? -own : own, unit);
+    return [make("strong", { text: adopted }), exact && exact !== adopted ? make("small", { text: words.not_rounded.replace("{value}", exact) }) : null];
+  }
+
   function chartOf(curve, field, task, pinned) {
     const { at, limits = {} } = sweep, limit = limits[curve.id] ?? undefined, scales = scalesOf(curve, at, limit);
     if (!scales.known) return null;
@@ -76,7 +90,7 @@ function whatIfOf(element, words, { ask, state, change, decimal, language }) {
       return make("i", { class: name, style: `left: ${100 * scales.x(size) / WIDE}%; top: ${100 * scales.y(on) / HIGH}%` });
     });
     return make("figure", { class: "sweep" },
-      make("figcaption", {}, make("span", { text: curve.title }), " ", make("strong", { text: here === null ? "" : written(here, curve.unit) })),
+      make("figcaption", {}, make("span", { text: curve.title }), " ", make("span", { class: "said" }, saidOf(curve, here))),
       make("div", { class: "plot" }, picture.firstChild, dots,
         make("span", { class: "high", text: written(scales.high, curve.unit) }), make("span", { class: "low", text: written(scales.low, curve.unit) })),
       make("p", { class: "ends" }, make("span", { text: written(sweep.from, field.unit) }), make("span", { text: written(sweep.to, field.unit) })));
@@ -130,7 +144,10 @@ function whatIfOf(element, words, { ask, state, change, decimal, language }) {
       ...found, at: [...found.at, ...piece.at], curves: found.curves.map((curve) => ({ ...curve, values: [...curve.values, ...values(curve.id)] })),
     };
   }
-  size.addEventListener("change", update);
+  size.addEventListener("change", () => {
+    choose(size.value);
+    update();
+  });
 
   // The present cam and the pinned one, side by side.
   function compare(values, pinned) {

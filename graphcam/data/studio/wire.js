@@ -63,7 +63,7 @@ function wireToServer() {
   return {
     ready: Promise.resolve(),
     ask: (request) => read("/engine", request, { signal: AbortSignal.timeout(PATIENCE) }),
-    write: (kind, task) => read("/write", { kind, task }),
+    write: (kind, task, replace) => read("/write", { kind, task, replace }),
   };
 }
 
