@@ -9,9 +9,12 @@ gettext finds it, in the first of LANGUAGE, LC_ALL, LC_MESSAGES and LANG that is
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
+from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from graphcam.errors import GraphcamError
@@ -19,6 +22,8 @@ from graphcam.help_texts import help_text
 from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.words import Caption, Words
 
+_LANGUAGE_PATTERN = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
+"""The language key of a task file, which only the table ``[drawing]`` has."""
 LANGUAGE_VARIABLES = ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG")
 
 
@@ -110,3 +115,11 @@ def _translate_help(command: Any, spoken: Language) -> None:
             parameter.help = spoken.text(_helped.get(parameter.help) or help_text(parameter.help))
     for inner in getattr(command, "commands", {}).values():
         _translate_help(inner, spoken)
+
+
+def language_in(path: Path) -> str:
+    """The language that a file names, whether or not the rest of it is a task, or TOML; empty where it names none."""
+    with suppress(OSError, ValueError):
+        found = _LANGUAGE_PATTERN.search(path.read_bytes().decode("utf-8", errors="replace"))
+        return found[1] if found else ""
+    return ""

@@ -11,14 +11,14 @@ import textwrap
 import time
 import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import graphcam
-from graphcam.cli.command_language import translated, voice
+from graphcam.cli.command_language import language_in, translated, voice
 from graphcam.cli.usage_errors import INPUT_ERROR_STATUS
 from graphcam.errors import DesignError, GraphcamError, LetteringWarning, TaskError
 from graphcam.words import Caption, Words, say, say_many
@@ -198,9 +198,6 @@ def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
         yield step
 
 
-_LANGUAGE_PATTERN = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
-"""The language key of a task file, which only the table ``[drawing]`` has."""
-
 COMMAND_OPTIONS = ("pencil", "seed", "upto", "dxf", "files", "working_drawing")
 """Quantities of a :class:`DesignError` that are options of the command line, not values of the task file."""
 
@@ -216,14 +213,6 @@ def read_task(path: Path | None, builtin: str = "coursework") -> Task | ArcsTask
         return graphcam.builtin_task(builtin)
     voice().adopt_language(language_in(path))
     return graphcam.load_task(path)
-
-
-def language_in(path: Path) -> str:
-    """The language that a file names, whether or not the rest of it is a task, or TOML; empty where it names none."""
-    with suppress(OSError, ValueError):
-        found = _LANGUAGE_PATTERN.search(path.read_bytes().decode("utf-8", errors="replace"))
-        return found[1] if found else ""
-    return ""
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import typer
 from typer.core import TyperGroup
 
-from graphcam.cli.command_language import translated, voice
+from graphcam.cli.command_language import language_in, translated, voice
 from graphcam.errors import DesignError, choice_limit
 from graphcam.typed_words import meant
 from graphcam.words import Words, bare_caption, say
@@ -61,8 +61,6 @@ def _told(words: tuple[str, ...]) -> Generator[None]:
 
 def _adopt_language(words: tuple[str, ...]) -> None:
     """Speak the language that the options ask for, else that of the task that is named."""
-    from graphcam.cli.shared import language_in
-
     for option, value in pairwise(words):
         if option == "--language":
             voice().choose(value)

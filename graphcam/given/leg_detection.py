@@ -90,7 +90,7 @@ class StopRows:
     def joined(self) -> int:
         """How many neighbours one mean is made of: 1 where there are few rows, or few on the way."""
         before, after = self.reach
-        way = min(np.count_nonzero(self.x < -before), np.count_nonzero(self.x > after))
+        way = int(min(np.count_nonzero(self.x < -before), np.count_nonzero(self.x > after)))
         return max(1, min(-(-self.x.size // MAX_STOP_ROWS), way // MIN_WAY_ROWS))
 
     @property

@@ -291,8 +291,8 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     ...                  roller_radius=(8, 15), width=(10, 30), permitted_stress=1500)
     >>> for cam in pareto_front(sized_cam.problem, 3):
     ...     print(round(cam.radius, 2), round(cam.stress))
-    41.12 1500
-    65.56 1030
+    39.71 1500
+    64.86 1037
     90.0 865
     """
     widest = problem.width[1]

@@ -198,7 +198,7 @@ class DrawnHeights:
         """
         _, v, s = (ordinate * height for height in self.unit)
         longest = min(MAX_POLE_SHARE * self.turn, most.pole)
-        possible = [pole for pole in STANDARD_POLES if pole <= longest]
+        possible = [pole for pole in STANDARD_POLES if pole <= longest] or STANDARD_POLES[:1]
         first = self._pole(possible, min(room.v, most.v), lambda pole: v / pole)
         second = self._pole(possible, min(room.s, most.s), lambda pole: s / (first * pole))
         if s > most.s * first * second:
