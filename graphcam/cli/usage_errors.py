@@ -110,10 +110,12 @@ def _wrong_value(error: Any, typed: str, hint: Words) -> DesignError:
     if kind not in (int, float):
         return DesignError(name, typed, bare_caption(str(error.message)), hint)
     limit = say("a number") if kind is float else say("a whole number")
-    least = getattr(parameter, "min", None)
+    # An older typer keeps the bounds at the parameter's type.
+    least, most = (
+        getattr(parameter, name, getattr(getattr(parameter, "type", None), name, None)) for name in ("min", "max")
+    )
     if least is not None:
         limit = say("{number}, at least {least:g}", number=limit, least=least)
-    most = getattr(parameter, "max", None)
     if most is not None:
         limit = say("a number from {least:g} to {most:g}", least=least, most=most)
         with suppress(ValueError):
