@@ -111,9 +111,8 @@ def _wrong_value(error: Any, typed: str, hint: Words) -> DesignError:
         return DesignError(name, typed, bare_caption(str(error.message)), hint)
     limit = say("a number") if kind is float else say("a whole number")
     # An older typer keeps the bounds at the parameter's type.
-    least, most = (
-        getattr(parameter, name, getattr(getattr(parameter, "type", None), name, None)) for name in ("min", "max")
-    )
+    holder = parameter if hasattr(parameter, "min") else getattr(parameter, "type", None)
+    least, most = (getattr(holder, bound, None) for bound in ("min", "max"))
     if least is not None:
         limit = say("{number}, at least {least:g}", number=limit, least=least)
     if most is not None:
