@@ -59,8 +59,8 @@ class Picture:
         """The picture as a figure of a web page, the image inside."""
         below = f"<figcaption>{escape(self.caption)}</figcaption>" if self.caption else ""
         if isinstance(self.image, str):
-            # A text in an address is shorter than its base64, and with single quotes shorter still.
-            source = "data:image/svg+xml," + quote(self.image.replace('"', "'"), safe=SAFE_IN_ADDRESS)
+            # A text in an address is shorter than its base64.
+            source = "data:image/svg+xml," + quote(self.image, safe=SAFE_IN_ADDRESS)
         else:
             source = f"data:image/png;base64,{base64.b64encode(self.image).decode()}"
         return f'<figure><img src="{source}" alt="{escape(self.alt)}">{below}</figure>'

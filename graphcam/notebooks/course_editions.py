@@ -10,7 +10,6 @@ import json
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from importlib import resources
@@ -28,6 +27,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
 from graphcam.words import Words, say
+from graphcam.workers import executor_of, ordered_results
 
 STUDENT_FOLDER, TEACHER_FOLDER = "student", "teacher"
 CHECK_PATTERN = re.compile(r"^(?P<answer>your_\w+) = None.*\n(?P<question>\w+)\.check\((?P=answer)\)\s*$")
@@ -175,15 +175,16 @@ def write_course(
             for name, text in needed.items() | {("hard_cases.toml", (source / "hard_cases.toml").read_text("utf-8"))}:
                 (edition / name).write_text(text, encoding="utf-8", newline="\n")
         # Every notebook is executed by a process of its own.
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        with executor_of(os.cpu_count() or 1) as executor:
             progress(say("executing {count} notebooks", count=len(scripts)))
-            lessons = list(pool.map(partial(lesson_of, folder=editions[1]), scripts))
+            lessons = list(ordered_results(executor, partial(lesson_of, folder=editions[1]), scripts))
             for lesson in lessons:
                 nbformat.write(lesson.student, editions[0] / f"{lesson.name}.ipynb")
                 nbformat.write(lesson.teacher, editions[1] / f"{lesson.name}.ipynb")
             if html or pdf:
                 progress(say("making pages"))
-                handed_out = pool.map(partial(execute, folder=editions[0]), [lesson.student for lesson in lessons])
+                students = [lesson.student for lesson in lessons]
+                handed_out = ordered_results(executor, partial(execute, folder=editions[0]), students)
                 for lesson, student in zip(lessons, handed_out, strict=True):
                     for edition, notebook in zip(editions, (student, lesson.teacher), strict=True):
                         _write_pages(edition / f"{lesson.name}.html", notebook, html=html, pdf=pdf)

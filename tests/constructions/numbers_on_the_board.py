@@ -26,6 +26,7 @@ import numpy as np
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
+from graphcam.constructions.axes import BROKEN_DWELL
 from graphcam.constructions.curvature import CAREFUL_ERROR
 from graphcam.drafting.act_order import ActPlaces, FollowedBoard, sources, visible_places
 from graphcam.drafting.acts import Act, Drawn, Kind, Setting
@@ -474,6 +475,8 @@ def not_on_the_board(solution: Any, judged: Judged = unknown) -> Iterator[tuple[
     drawn = all_constructions(solution)
     steps = steps_of(drawn)
     numbers, data = chapter_numbers(steps), given(solution)
+    # A broken dwell has a length that the drawing chooses, as it chooses a round scale.
+    data.add([BROKEN_DWELL])
     followed, board = FollowedBoard(visible_places([step for _, _, step in steps])), Board()
     for construction in drawn.values():
         for left in construction.acts.values():

@@ -149,6 +149,7 @@ def test_functions_of_rooms_above_are_there():
     drawn = {kind._drawn_in for kind in kinds if isinstance(kind, type) and issubclass(kind, Plottable)}
     assert drawn == {
         "cam_outline.plot", "cam_outline.plot_arcs", "construction_drawing.plot", "construction_drawing.plot_sheet",
+        "force_curves.plot", "force_curves.plot_stress",
         "motion_curves.plot", "motion_curves.plot_bands", "response_curves.plot", "response_curves.plot_spectrum",
     }  # fmt: skip
     for function in named | {f"plots.{function}" for function in drawn}:

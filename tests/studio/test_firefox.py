@@ -16,6 +16,8 @@ from programs import program, pyodide_folder
 from studio_pages import Engine
 
 import graphcam as gc
+from graphcam.studio.address import StudioPlace, address_of
+from graphcam.studio.task_text import built_in_tasks
 from graphcam.studio.worker_page import write_one_file
 
 pytestmark = pytest.mark.slow
@@ -119,7 +121,9 @@ def test_a_size_is_moved_by_a_key(firefox):
 def test_the_one_file_works_without_a_server(firefox, tmp_path_factory):
     page = Path(tmp_path_factory.mktemp("one-file"), "studio.html")
     write_one_file(page, pyodide_folder(tmp_path_factory.mktemp("pyodide")), gc.builtin_task())
-    firefox.do("WebDriver:Navigate", url=page.as_uri())
+    # Not the cam that turns: its picture is never at rest.
+    shown = address_of(StudioPlace(built_in_tasks()["coursework"], view="combined"), built_in_tasks())
+    firefox.do("WebDriver:Navigate", url=page.as_uri() + shown)
     # Before the engine is there a picture made beforehand is shown.
     firefox.wait("return studio.stats.length > 0")
     moved_by_keys(firefox)
