@@ -52,7 +52,7 @@ ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench"
 UNREAD_FILES = frozenset(
     {
         *("hard_cases.toml", "space.toml"),
-        *("matplotlib_renderer.py", "dxf_renderer.py", "cad_renderer.py", "sizing_files.py"),
+        *("matplotlib_renderer.py", "dxf_renderer.py", "cad_renderer.py", "output_folder.py", "sizing_files.py"),
         *("server.py", "local_studio.py", "widget.py"),
         *("commented_task.py", "help_texts.py", "examples.toml"),
     }

@@ -74,7 +74,8 @@ def test_a_plain_view_has_the_same_curves_and_no_construction(name):
         # Its numbers do not lie on one another.
         numbers = re.findall(r'<text [^>]*?x="([-\d.]+)" y="([-\d.]+)" font-size="([\d.]+)"[^>]*>[−\d.]+°?<', here)
         places = [(float(x), float(y), float(size)) for x, y, size in numbers]
-        assert len(places) >= 2
+        # The small lift of three arcs has a single round number beside its axis.
+        assert len(places) >= (1 if name == "arcs" else 2)
         for k, (x, y, size) in enumerate(places):
             assert all(abs(x - u) > size or abs(y - v) > 0.8 * size for u, v, _ in places[:k])
     # The lowest alone has the degrees of the common axis.
