@@ -230,6 +230,7 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     at = worked_station(stations, paper)
 
     def told(j: int) -> Caption:
+        """The lengths that are carried over at station j."""
         """What is read at a place: OK on paper, the velocity [mm/rad], the pressure angle [degrees]."""
         if np.isnan(paper[j]):
             return UNREADABLE

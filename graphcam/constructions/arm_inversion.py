@@ -167,6 +167,7 @@ def _turned_arms_step(inverted: ArmInverted) -> Step:
     chords = 2 * inverted.givens.mu_l.paper(inverted.givens.arm) * np.sin(np.abs(np.radians(s * factor)) / 2)
 
     def turn(n: int) -> Words:
+        """The angle of station n, and its chord on paper."""
         angle = turning_angle(s[n], factor)
         return (
             say("{angle}, a chord of {chord:.2f} mm", angle=angle, chord=chords[n])

@@ -198,9 +198,11 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
     limits, sigma, moving = givens.limits, sense(givens.rotation), lift_directions(givens.integrated)
 
     def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
+        """Lines at the permitted angle [rad] to the directions in which the tips move."""
         return hand.protractor(f"limits: {name}", ends, arms.turned(UP), side * limit).turned(side)
 
     def family(name: str, direction: int, limit: float, side: int) -> Drawn:
+        """The limit lines of all rises (direction +1) or returns (-1)."""
         at = np.flatnonzero(moving == direction)
         lines = at_limit(name, drawn["tips"][at], drawn["arms"][at], limit, side)
         pieces = pieces_of(motion, stations, direction)

@@ -134,6 +134,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         said = sequence([said, by_dividers], " ")
 
     def swung(n: int) -> Words:
+        """The angle of station n, and its chord on paper where the protractor is too coarse."""
         angle, chord = turning_angle(s[n], factor), abs(ends.shown[n] - start.place)
         return say("{angle}, {chord:.2f} mm along the arc", angle=angle, chord=chord) if small[n] else angle
 
@@ -185,6 +186,7 @@ def velocities_step(drawn: ArmPositions) -> Step:
     )
 
     def laid_off(n: int) -> Words:
+        """The length at station n, and the side to which it is laid off."""
         length = setting(tips.first[[n]])
         return length if length == "0" else say("{length} {side}", length=length, side=arm_sense_caption(sigma * v[n]))
 

@@ -387,6 +387,7 @@ def displacement_step(drawn: Analysis, said: Caption, why: Caption, marks: Seque
     k = int(np.argmax(s))
 
     def measured(n: int) -> Caption:
+        """The displacement at position n, as it is measured."""
         if angle:
             return say("{s:.2f}°", s=_without_minus_zero(math.degrees(s[n])))
         paper = _without_minus_zero(float(s[n]))
@@ -463,6 +464,7 @@ def angles_step(drawn: Analysis) -> Step:
     )
 
     def measured(k: int) -> Caption:
+        """The pressure angle at position k, as it is measured."""
         return say("{alpha:.1f}°", alpha=_without_minus_zero(math.degrees(alpha[k]), 1))
 
     k = int(np.argmax(np.abs(alpha)))

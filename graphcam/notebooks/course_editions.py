@@ -19,9 +19,9 @@ import nbformat
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
-from graphcam.files import OutputError, whole_folder
+from graphcam.files import whole_folder
 from graphcam.notebooks.notebook_execution import execute
-from graphcam.notebooks.notebook_folder import NO_BROWSER_ERROR, browser, print_pdf, to_html
+from graphcam.notebooks.notebook_folder import check_browser, to_html, write_page
 from graphcam.notebooks.question import QUESTIONS_FILE, Question, kept_questions, kept_text
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -164,8 +164,8 @@ def write_course(
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     NotebookError : a cell fails
     """
-    if pdf and browser() is None:
-        raise OutputError(Path(folder), *NO_BROWSER_ERROR)
+    if pdf:
+        check_browser(folder)
     source, needed = course_source(), task_files(task)
     scripts = sorted(source.glob("[0-9][0-9]_*.ipynb"))
     with whole_folder(folder) as draft:
@@ -187,16 +187,8 @@ def write_course(
                 handed_out = ordered_results(executor, partial(execute, folder=editions[0]), students)
                 for lesson, student in zip(lessons, handed_out, strict=True):
                     for edition, notebook in zip(editions, (student, lesson.teacher), strict=True):
-                        _write_pages(edition / f"{lesson.name}.html", notebook, html=html, pdf=pdf)
+                        page = to_html(notebook, notebook.metadata.get("title", lesson.name))
+                        write_page(page, edition / f"{lesson.name}.html", html=html, pdf=pdf)
         kept = {one.name: {answer: kept_text([q]) for answer, q in one.answers.items()} for one in lessons}
         (editions[1] / QUESTIONS_FILE).write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8", newline="\n")
     return [STUDENT_FOLDER, TEACHER_FOLDER]
-
-
-def _write_pages(page: Path, notebook: NotebookNode, *, html: bool, pdf: bool) -> None:
-    title = notebook.metadata.get("title", page.stem)
-    page.write_text(to_html(notebook, title), encoding="utf-8", newline="\n")
-    if pdf:
-        print_pdf(page, page.with_suffix(".pdf"))
-    if not html:
-        page.unlink()

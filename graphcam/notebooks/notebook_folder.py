@@ -271,6 +271,31 @@ def print_pdf(page: Path, pdf: Path) -> None:
         raise OutputError(pdf, why, say("print the page of --html from your browser"))
 
 
+def check_browser(place: Path | str) -> None:
+    """Check that there is a program to print with, before anything is executed for a place.
+
+    Raises
+    ------
+    OutputError : there is none
+    """
+    if browser() is None:
+        raise OutputError(place, *NO_BROWSER_ERROR)
+
+
+def write_page(page: str, path: Path, *, html: bool, pdf: bool) -> None:
+    """Write the text of a page as HTML, as PDF beside it, or both.
+
+    Raises
+    ------
+    OutputError : the page cannot be printed
+    """
+    path.write_text(page, encoding="utf-8", newline="\n")
+    if pdf:
+        print_pdf(path, path.with_suffix(".pdf"))
+    if not html:
+        path.unlink()
+
+
 def write_folder(
     task: Task | ArcsTask,
     folder: Path | str,
@@ -292,8 +317,8 @@ def write_folder(
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     NotebookError : a cell fails
     """
-    if pdf and browser() is None:
-        raise OutputError(Path(folder, PRINT_FILE), *NO_BROWSER_ERROR)
+    if pdf:
+        check_browser(Path(folder, PRINT_FILE))
     progress(say("writing the notebook"))
     notebook, files = write_notebook(task), task_files(task)
     with whole_folder(folder) as draft:
@@ -306,10 +331,5 @@ def write_folder(
         if html or pdf:
             progress(say("making a page of it"))
             page = to_html(notebook, notebook_title(task), task.drawing.language)
-            (draft / PAGE_FILE).write_text(page, encoding="utf-8", newline="\n")
-        if pdf:
-            progress(say("printing the page"))
-            print_pdf(draft / PAGE_FILE, draft / PRINT_FILE)
-        if not html:
-            (draft / PAGE_FILE).unlink(missing_ok=True)
+            write_page(page, draft / PAGE_FILE, html=html, pdf=pdf)
         return sorted(path.name for path in draft.iterdir())

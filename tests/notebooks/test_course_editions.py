@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import shutil
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -169,6 +170,22 @@ def test_what_notebooks_do_not_have_is_refused(words, message, course, tmp_path)
     assert done.exit_code == INPUT_ERROR_STATUS
     assert message in done.stderr
     assert not out.exists()
+
+
+def test_a_zip_of_the_folders_is_read_and_what_is_not_safe_in_it_is_told(course, tmp_path):
+    questions = course_questions(course / "student")
+    name, asked = next(iter(questions.items()))
+    answer, question = next(iter(asked.items()))
+    handed_in(course, tmp_path / "anna", {answer: repr(question.value + question.bias)})
+    packed = course / "handed-in.zip"
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.write(tmp_path / "anna" / f"{name}.ipynb", f"anna/{name}.ipynb")
+        archive.writestr("../outside.ipynb", "{}")
+    done = CliRunner().invoke(app, ["exercise", "grade", str(packed), "--out", str(tmp_path / "grades.csv")])
+    assert done.exit_code == 0, done.output
+    (row,) = rows_of(tmp_path / "grades.csv")
+    assert (row["student"], row[name]) == ("anna", "1")
+    assert "not graded: ../outside.ipynb" in done.output
 
 
 def test_damaged_questions_are_told_by_their_file(course, tmp_path):

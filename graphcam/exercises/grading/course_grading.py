@@ -219,8 +219,8 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     _check_places(course)
     if questions := course_questions(course.folder):
         given = {"--feedback": course.feedback, "--gradebook": course.gradebook, "--overrides": course.overrides}
-        with unpacked(course.folder) as (handed_in, _):
-            return grade_notebooks(handed_in, course.out, questions, given)
+        with unpacked(course.folder) as (handed_in, unsafe):
+            return [*grade_notebooks(handed_in, course.out, questions, given), *map(_not_graded, unsafe)]
     folder, kept = AnswerKeys.of(course.folder)
     if not course.folder.is_dir() and not kept.course():
         remedy = say("put it beside the folder 'teacher' of its course, or unpack it")
@@ -287,7 +287,7 @@ def _graded(
             store.note_pages(course.feedback)
             folders = {one.student: one.path for one in hand_ins}
             write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
-        told = [say("not graded: {place}: {why}", place=one.place, why=one.why) for one in refused]
+        told = [_not_graded(one) for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED_FILE)
         unreadable = {one.student for one in silent}
@@ -302,6 +302,10 @@ def _graded(
     done = say("submissions graded: {count}, at level {level}; in {folder}: {files}")
     done = done.with_values(count=len(graded), level=level, folder=str(course.out.parent), files=", ".join(files))
     return [done, *told]
+
+
+def _not_graded(refused: Refused) -> Caption:
+    return say("not graded: {place}: {why}", place=refused.place, why=refused.why)
 
 
 def _by_hand(
