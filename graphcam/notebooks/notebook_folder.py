@@ -331,5 +331,7 @@ def write_folder(
         if html or pdf:
             progress(say("making a page of it"))
             page = to_html(notebook, notebook_title(task), task.drawing.language)
+            if pdf:
+                progress(say("printing the page"))
             write_page(page, draft / PAGE_FILE, html=html, pdf=pdf)
         return sorted(path.name for path in draft.iterdir())
