@@ -150,8 +150,8 @@ def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> C
     resting = np.broadcast_to(of_rests, (*moving.shape[:-2], *of_rests.shape))
     seen = [sharpest_of(inverted, places.points, triples) for triples in (moving, resting)]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
-    # Where nothing rests no arc is near, seen from any place.
-    at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
+    # Where nothing rests there is no arc: the places of the moving phases stand for it, and are not counted.
+    at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), at[..., 0, :], at[..., 1, :])
     names = ("P", "B", "Q")
     before, b, after = (hand.take(name, places, which=at[..., k]) for k, name in enumerate(names))
     bisectors = hand.bisect("first bisectors", before, b), hand.bisect("second bisectors", b, after)
