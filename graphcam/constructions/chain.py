@@ -312,7 +312,7 @@ class Chain(Drawings):
         if board.prime_radius is not None or (board.needed_profile_radius is None and not board.shaft_radius):
             return ()
         trials = [self._tried(*self._by_angles)]
-        while lacking := max(trials[-1].too_sharp, trials[-1].too_thin):
+        while (lacking := max(trials[-1].too_sharp, trials[-1].too_thin)) > ROUNDING_SLACK * self.rounding:
             radius, place = trials[-1].prime_radius + lacking, trials[-1].place
             radius = multiple(steps_up(radius, self.rounding), self.rounding)
             places = self._places(radius)
