@@ -153,7 +153,9 @@ class Chain(Drawings):
         board = self.board
         first, second = board.poles  # of the integrations, which differentiation turns round
         if isinstance(board.motion, GivenCamMotion):
-            given = self.analysis, board.motion.lift, board.mu_phi, (second, first), board.paper
+            # The scale is that of a hand without error: one for all samples.
+            errorless = self.perfect.analysis.readings["s"].value
+            given = self.analysis, errorless, board.mu_phi, (second, first), board.paper
             return given_cam_differentiation(*given, self.pencil)
         parts = board.divisions * len(board.motion.phases) * board.refine
         # Readings scale with the drawn lift, so the scale is that of a hand without error: one for all samples.

@@ -56,10 +56,11 @@ TANGENT_HALF_LENGTH = 12.0
 """Half the length of a drawn tangent [mm of paper]."""
 MAX_LIFT = 50.0
 """The lift is drawn as large as it fits under this height [mm of paper]."""
-HEIGHT_SHARE, ROUND_POLES = 0.7, (60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
+HEIGHT_SHARE, ROUND_POLES = 0.65, (60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
 """No derivative is higher than this part of the sheet: else its pole is one of these, shorter than the usual one."""
-HIGH_ERRORS = 5.0
-"""From the lowest to the highest of many ordinates their errors add so many standard deviations."""
+SHORT_POLE, HIGH_ERRORS = 12.0, 5.0
+"""From a shorter pole rays are hardly drawn; and of many ordinates the errors add so many standard deviations to the
+highest above the lowest."""
 ENLARGEMENTS, DEGREES_PER_MM = (1, 2, 3, 4, 5, 10), (0.1, 0.2, 0.25, 0.5, 1, 2, 5)
 """So many times a length is stepped off in the diagram of the displacement; and the scales of an angle there."""
 CROSS_HALF_WIDTH, ROWS_ROOM = 0.6, 2.5
@@ -191,21 +192,23 @@ def measured_differentiation(
 
 
 def given_cam_differentiation(
-    analysis: Construction, lift: float, mu_phi: Scale, poles: tuple[float, float], paper: Paper, pencil: Pencil
+    analysis: Construction, errorless: Floats, mu_phi: Scale, poles: tuple[float, float], paper: Paper, pencil: Pencil
 ) -> Construction[DifferentiationGivens]:
     """Differentiate the displacements that were measured on a given cam, by chords.
 
     analysis : with the reading ``s`` at equal parts of the turn
-    lift : about [mm or rad], for the scale of the diagram;  paper : what the diagrams find on the sheet
+    errorless : what a hand without error measures [mm or rad], for the scale of the diagram
+    paper : what the diagrams find on the sheet
     """
     s, phi = analysis.readings["s"], analysis.givens.phi
     # As the dividers take them, or so many times: an angle in a round number of degrees a millimetre.
     steps = np.radians(DEGREES_PER_MM) if s.unit == "rad" else s.per_mm / np.array(ENLARGEMENTS)
-    fits = steps[lift / steps <= MAX_LIFT]
-    mu_s = Scale(float(fits.min() if fits.size else steps.max()), s.unit)
+    fits = [mu for mu in sorted(steps.tolist()) if np.ptp(errorless) / mu <= MAX_LIFT] or [float(steps.max())]
     turn, meaning = FULL_TURN / mu_phi.per_mm, GIVEN_CAM_MEANING
-    heights = analysis.first("s") * s.per_mm / mu_s.per_mm
-    poles = _poles_on(paper, heights, turn / phi.size, poles, pencil.line)
+    on_paper = [(mu, _poles_on(paper, errorless / mu, turn / phi.size, poles, pencil.line)) for mu in fits]
+    # Rather a smaller displacement than a pole that is too short to draw rays from.
+    per_mm, poles = next((found for found in on_paper if min(found[1]) >= SHORT_POLE), on_paper[-1])
+    mu_s = Scale(per_mm, s.unit)
     return differentiation(phi / mu_phi.per_mm, s, mu_phi, mu_s, poles, pencil, turn=turn, meaning=meaning)
 
 
