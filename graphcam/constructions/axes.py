@@ -363,6 +363,8 @@ SCALE_OFFSET = 7.5
 """So far below the line of degrees the scale of a broken axis stands [mm]."""
 SAME_TICK = 1e-6
 """An angle so near to a stroke, in parts of their distance, lies on it."""
+MIN_SHOWN_ORIGIN = 0.1
+"""Degrees that no drawing shows: where the motion begins nearer to its table's beginning, it begins with it."""
 SECOND_LINE = 12.0
 """So far below the line of degrees that of the table stands, where it begins elsewhere; what follows is lower [mm]."""
 
@@ -407,7 +409,7 @@ def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
     ends = phase_ends(motion, mu_phi)
     spans = enumerate(pairwise(ends + (low - PHASES_OFFSET - second_line(motion)) * UP))
     as_given: tuple[Mark, ...] = ()
-    if motion.origin:
+    if second_line(motion):
         level = (low - DEGREES_OFFSET - SECOND_LINE) * UP
         line = _degrees_line(ends[-1], mu_phi, level, math.degrees(motion.origin))
         as_given = (*line, Label(level, say("φ as given"), towards=-1 + 0j, small=True))
@@ -420,7 +422,7 @@ def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
 
 def second_line(motion: Motion) -> float:
     """How much lower everything stands for the second line of degrees [mm of paper]; 0 where there is none."""
-    return SECOND_LINE if motion.origin else 0.0
+    return SECOND_LINE if abs(math.degrees(motion.origin)) >= MIN_SHOWN_ORIGIN else 0.0
 
 
 def numbered_stations(points: Points, stations: Stations) -> list[int]:
