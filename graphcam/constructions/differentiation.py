@@ -161,7 +161,7 @@ def _poles_on(
 ) -> tuple[float, float]:
     """The poles, or shorter ones at which the derivatives fit the paper, with the errors that the chords enlarge.
 
-    heights : over a turn in equal parts of a width;  line : the error of a drawn line [mm of paper]
+    heights : over a turn in equal parts of a width, each off by about ``line`` [mm of paper]
     """
     found, off = list[float](), line
     for usual in poles:
@@ -205,7 +205,13 @@ def given_cam_differentiation(
     steps = np.radians(DEGREES_PER_MM) if s.unit == "rad" else s.per_mm / np.array(ENLARGEMENTS)
     fits = [mu for mu in sorted(steps.tolist()) if np.ptp(errorless) / mu <= MAX_LIFT] or [float(steps.max())]
     turn, meaning = FULL_TURN / mu_phi.per_mm, GIVEN_CAM_MEANING
-    on_paper = [(mu, _poles_on(paper, errorless / mu, turn / phi.size, poles, pencil.line)) for mu in fits]
+
+    def poles_at(mu: float) -> tuple[float, float]:
+        # What was measured on the cam is off by about two lines, which the diagram enlarges.
+        off = pencil.line * max(1.0, 2 * s.per_mm / mu)
+        return _poles_on(paper, errorless / mu, turn / phi.size, poles, off)
+
+    on_paper = [(mu, poles_at(mu)) for mu in fits]
     # Rather a smaller displacement than a pole that is too short to draw rays from.
     per_mm, poles = next((found for found in on_paper if min(found[1]) >= SHORT_POLE), on_paper[-1])
     mu_s = Scale(per_mm, s.unit)
