@@ -206,7 +206,8 @@ show_steps(back, 2, 3, 4)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 hands = differentiated(gc.Pencil.of(0.2, samples=400, seed=1))
-_, true_v, true_a, _ = task.motion()(np.linspace(0, rising.angle * (1 - 1e-9), 20001))
+begins = task.motion().starts[task.motion().phases.index(rising)]
+_, true_v, true_a, _ = task.motion()(begins + np.linspace(0, rising.angle * (1 - 1e-9), 20001))
 rows = []
 for name, exact in (("max_v", true_v.max()), ("max_a", np.abs(true_a).max())):
     ideal, by_hand = float(back.readings[name].value), hands.readings[name].value

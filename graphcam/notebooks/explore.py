@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from graphcam.errors import DesignError, nearest_word_remedy
+from graphcam.given.motion import MovingPhase, Rise
+from graphcam.solving.solve import solve
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import builtin_task, load_task
 from graphcam.words import say
@@ -142,21 +144,34 @@ def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
     return dataclasses.replace(table, **{path[0]: value})
 
 
+def _rises_first(task: Task) -> bool:
+    first = next(phase for phase in task.motion().phases if isinstance(phase, MovingPhase))
+    return task.motion.phases is not None and isinstance(first, Rise)
+
+
+def _has_sound_roller(task: Task) -> bool:
+    cam = solve(task).cam
+    return 0 < cam.roller_radius < cam.extremes().min_convex_radius.value
+
+
 def lesson_task(file: Path | str, *followers: str, by_laws: bool = False, roller: bool = False) -> Task:
     """The task of a lesson; where it is not what the lesson needs, the built-in cam by another law: a line says so.
 
     followers : the kinds of which one is needed, of none any
-    by_laws, roller : whether a motion by laws is needed, and a roller
+    by_laws, roller : whether a motion by laws is needed that rises first, and a roller that does not undercut
     """
     task = load_task(file)
     if (
         isinstance(task, Task)
         and (not followers or task.follower.kind in followers)
-        and (task.motion.phases is not None or not by_laws)
-        and not (roller and task.follower.roller_radius == 0)
+        and (not by_laws or _rises_first(task))
+        and (not roller or _has_sound_roller(task))
     ):
         return task
-    needed = say("This lesson needs another follower, or a motion by laws: it goes on with the built-in cam.")
+    needed = say(
+        "This lesson needs another follower, a motion by laws that rises first, or a roller that does not undercut: it "
+        "goes on with the built-in cam."
+    )
     from IPython.display import Markdown, display
 
     display(Markdown(f"> {task.drawing.tell(needed)}"))
