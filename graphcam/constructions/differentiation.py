@@ -176,10 +176,12 @@ def given_cam_differentiation(
     analysis : with the reading ``s`` at equal parts of the turn
     lift : about [mm or rad], for the scale of the diagram
     """
-    s, phi = analysis.readings["s"], analysis.givens.phi
-    # As the dividers take them, or so many times: an angle in a round number of degrees a millimetre.
-    steps = np.radians(DEGREES_PER_MM) if s.unit == "rad" else s.per_mm / np.array(ENLARGEMENTS)
-    fits = steps[lift / steps <= MAX_LIFT]
+    s, phi, drawn_at = analysis.readings["s"], analysis.givens.phi, analysis.givens.mu_l.per_mm
+    # As the dividers take them, or so many times; an angle in a round number of degrees a millimetre.
+    steps = units = np.radians(DEGREES_PER_MM)
+    if s.unit != "rad":
+        steps, units = (per_mm / np.array(ENLARGEMENTS) for per_mm in (s.per_mm, drawn_at))
+    fits = steps[lift / units <= MAX_LIFT]
     mu_s = Scale(float(fits.min() if fits.size else steps.max()), s.unit)
     turn, meaning = FULL_TURN / mu_phi.per_mm, GIVEN_CAM_MEANING
     return differentiation(phi / mu_phi.per_mm, s, mu_phi, mu_s, poles, pencil, turn=turn, meaning=meaning)
