@@ -169,6 +169,7 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
         ("[outline]\nfile = 'cam.csv'\n[arcs]\nD = 3", "arcs is a table, but must be left out"),
         ("[outline]\nfile = 'cam.csv'\ntolerance = -1", "outline.tolerance is -1"),
         ("[outline]\nfile = 'motion.csv'", "outline.file is the table of a motion"),
+        ("[outline]\nfile = 'beside.csv'", r"beside\.csv: outline is beside the cam centre"),
         (
             "cam.prime_radius = 40\n[outline]\nfile = 'cam.csv'",
             "cam.prime_radius is 40.*left out where the cam is given",
@@ -178,6 +179,7 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
 def test_files_that_are_no_outline_are_told(tmp_path, task, said):
     text = "".join(f"{z.real},{z.imag}\n" for z in DISC)
     (tmp_path / "cam.csv").write_text(f"x,y\n{text}", encoding="utf-8")
+    (tmp_path / "beside.csv").write_text("x,y\n" + "".join(f"{z.real + 90},{z.imag}\n" for z in DISC), encoding="utf-8")
     rows = "".join(f"{x:.0f},{5 - 5 * math.cos(math.radians(x))}\n" for x in range(0, 360, 5))
     (tmp_path / "motion.csv").write_text(f"phi_deg,s_mm\n{rows}", encoding="utf-8")
     follower = "[follower]\nkind = 'translating'\noffset = 0\nroller_radius = 10\n"
