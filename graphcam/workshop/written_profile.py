@@ -10,6 +10,7 @@ from typing import Any, Literal, get_args
 from graphcam.errors import DesignError, check_kind, nearest_word_remedy, suggestion
 from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.conjugate_cam import ConjugateCam
 from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import say
@@ -27,7 +28,7 @@ SPLINE_KINDS = "dxf", "step"
 
 
 def write_profile(
-    cam: Cam,
+    cam: Cam | ConjugateCam,
     folder: Path | str,
     kinds: FileKind | Collection[FileKind] = ("csv", "dxf"),
     *,
@@ -39,7 +40,7 @@ def write_profile(
 
     Parameters
     ----------
-    cam : any cam; what its roller undercuts is left out of the profile
+    cam : any cam, what its roller undercuts is left out of the profile; or the second cam of a conjugate pair
     folder : is made if it is not there; other files in it stay
     kinds : of these, several or one: "csv" (720 points with cam angle and polar coordinates), "dxf" (one spline),
         "xyz" (a closed curve through the same points), "step" (a solid with bore and keyway), "gcode" (a program)
@@ -55,8 +56,9 @@ def write_profile(
 
     Raises
     ------
-    DesignError : there is no such kind or no such size of a part, a groove is asked for as a solid, no profile can be
-        told that could be cut, the part cannot be made of this cam, or the cutter does not reach into its hollows
+    DesignError : there is no such kind or no such size of a part, a groove or a second cam is asked for as a solid, no
+        profile can be told that could be cut, the part cannot be made of this cam, or the cutter does not reach into
+        its hollows
     OutputError : the folder cannot be written
 
     >>> from math import radians
@@ -72,15 +74,16 @@ def write_profile(
     step profile.step True
     gcode profile.ngc True
     """
-    check_kind("cam", cam, Cam)
+    check_kind("cam", cam, (Cam, ConjugateCam))
     wanted = [kinds] if isinstance(kinds, str) else list(kinds)
     for kind in wanted:
         if kind not in FILE_KINDS:
             raise DesignError(
                 "kinds", kind, say("of {names}", names=", ".join(FILE_KINDS)), suggestion(kind, FILE_KINDS)
             )
-        if groove and kind not in CURVE_KINDS:
-            raise DesignError("kinds", kind, say("of {names}, for a groove", names=", ".join(CURVE_KINDS)))
+        if kind not in CURVE_KINDS and (groove or isinstance(cam, ConjugateCam)):
+            limit = say("of {names}, for a groove") if groove else say("of {names}, for the second cam of a pair")
+            raise DesignError("kinds", kind, limit.with_values(names=", ".join(CURVE_KINDS)))
     table, names = _part_table(part), {f"profile_{kind}" for kind in wanted}
     splined = any(kind in SPLINE_KINDS for kind in wanted)
     spline = _spline(cam, table) if splined else None
@@ -88,7 +91,8 @@ def write_profile(
     with whole_folder(folder) as draft:
         written = profile_files.write_curves(cam, spline, draft, names)
         outer = profile_files.write_curves(cam, wall, draft, names, "outer") if groove else {}
-        for kind, text in _texts(cam, spline, table, name, names).items():
+        texts = _texts(cam, spline, table, name, names) if isinstance(cam, Cam) else {}
+        for kind, text in texts.items():
             written[kind] = cutting_files.FILE_NAMES[kind]
             (draft / written[kind]).write_text(text, encoding="ascii", newline="\n")
     made = {kind: Path(folder) / written[f"profile_{kind}"] for kind in wanted}
@@ -104,7 +108,7 @@ def _part_table(part: dict[str, Any]) -> PartTable:
     return PartTable(**part)
 
 
-def _spline(cam: Cam, table: PartTable, side: Literal["inner", "outer"] = "inner") -> ProfileSpline:
+def _spline(cam: Cam | ConjugateCam, table: PartTable, side: Literal["inner", "outer"] = "inner") -> ProfileSpline:
     degree, count = table.spline_degree, table.spline_control_points
     return profile_spline(cam, degree=degree, control_points=count, trimmed=True, side=side).turned(cam.table_turn)
 
