@@ -145,6 +145,11 @@ class ConjugateCam:
         return self.cam.motion
 
     @property
+    def sigma(self) -> int:
+        """The sense in which both cams turn."""
+        return self.cam.sigma
+
+    @property
     def prime_radius(self) -> float:
         """The distance of the second roller's centre from the cam centre with the follower in its lowest position."""
         return self._path.prime_radius

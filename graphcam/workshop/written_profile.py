@@ -56,9 +56,8 @@ def write_profile(
 
     Raises
     ------
-    DesignError : there is no such kind or no such size of a part, a groove or a second cam is asked for as a solid, no
-        profile can be told that could be cut, the part cannot be made of this cam, or the cutter does not reach into
-        its hollows
+    DesignError : there is no such kind or no such size of a part, a groove is asked for as a solid, no profile can be
+        told that could be cut, the part cannot be made of this cam, or the cutter does not reach into its hollows
     OutputError : the folder cannot be written
 
     >>> from math import radians
@@ -81,9 +80,8 @@ def write_profile(
             raise DesignError(
                 "kinds", kind, say("of {names}", names=", ".join(FILE_KINDS)), suggestion(kind, FILE_KINDS)
             )
-        if kind not in CURVE_KINDS and (groove or isinstance(cam, ConjugateCam)):
-            limit = say("of {names}, for a groove") if groove else say("of {names}, for the second cam of a pair")
-            raise DesignError("kinds", kind, limit.with_values(names=", ".join(CURVE_KINDS)))
+        if groove and kind not in CURVE_KINDS:
+            raise DesignError("kinds", kind, say("of {names}, for a groove", names=", ".join(CURVE_KINDS)))
     table, names = _part_table(part), {f"profile_{kind}" for kind in wanted}
     splined = any(kind in SPLINE_KINDS for kind in wanted)
     spline = _spline(cam, table) if splined else None
@@ -91,8 +89,7 @@ def write_profile(
     with whole_folder(folder) as draft:
         written = profile_files.write_curves(cam, spline, draft, names)
         outer = profile_files.write_curves(cam, wall, draft, names, "outer") if groove else {}
-        texts = _texts(cam, spline, table, name, names) if isinstance(cam, Cam) else {}
-        for kind, text in texts.items():
+        for kind, text in _texts(cam, spline, table, name, names).items():
             written[kind] = cutting_files.FILE_NAMES[kind]
             (draft / written[kind]).write_text(text, encoding="ascii", newline="\n")
     made = {kind: Path(folder) / written[f"profile_{kind}"] for kind in wanted}
@@ -113,7 +110,9 @@ def _spline(cam: Cam | ConjugateCam, table: PartTable, side: Literal["inner", "o
     return profile_spline(cam, degree=degree, control_points=count, trimmed=True, side=side).turned(cam.table_turn)
 
 
-def _texts(cam: Cam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]) -> dict[str, str]:
+def _texts(
+    cam: Cam | ConjugateCam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]
+) -> dict[str, str]:
     """The contents of the wanted files by which a machine cuts the cam, by their kinds."""
     texts: dict[str, str] = {}
     if not wanted & cutting_files.FILE_NAMES.keys():
