@@ -96,6 +96,23 @@ def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
     assert str(caught.value).startswith(str(path))
 
 
+@pytest.mark.parametrize(
+    ("name", "station", "message"),
+    [
+        ("given-cam", '"6"', "station is '24', but must be from 0 to 23"),
+        ("differentiation", '"4"', "station is '25', but must be from 1 to 24"),
+    ],
+)
+def test_a_place_beyond_the_turn_is_told(tmp_path, name, station, message):
+    """Positions of a given cam are numbered from 0, chords from 1."""
+    text, beyond = exercise_path(name).read_text(encoding="utf-8"), message.split("'")[1]
+    (tmp_path / "mine.toml").write_text(
+        text.replace(f"station = {station}", f'station = "{beyond}"', 1), encoding="utf-8"
+    )
+    with pytest.raises(TaskError, match=message):
+        load_exercise(tmp_path / "mine.toml")
+
+
 @pytest.mark.slow
 @over_all("language", CATALOGS)
 @over_all("name", library())

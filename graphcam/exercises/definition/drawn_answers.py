@@ -110,10 +110,14 @@ def place_of(chain: Chain, asked: AskedAnswer) -> int:
     if name is None:
         raise DesignError("station", asked.station, say("a number, with a prime for each phase after the first"))
     number, phase = int(name[1]), len(name[2])
-    if asked.reading in PHASE_READINGS:
-        return number - 1
-    if asked.construction in FIRST_OF_TURN:
-        return number - FIRST_OF_TURN[asked.construction]
+    if asked.reading in PHASE_READINGS or asked.construction in FIRST_OF_TURN:
+        first = 1 if asked.reading in PHASE_READINGS else FIRST_OF_TURN[asked.construction]
+        drawn = construction_of(chain, asked.construction)
+        there = drawn.points[asked.points] if asked.points else drawn.readings[asked.reading].paper
+        if not 0 <= number - first < there.shape[-1]:
+            limit = say("from {least} to {most}", least=first, most=first + there.shape[-1] - 1)
+            raise DesignError("station", asked.station, limit)
+        return number - first
     if phase >= len(stations.phases):
         limit = say("in one of {phases} moving phases", phases=len(stations.phases))
         raise DesignError("station", asked.station, limit)
