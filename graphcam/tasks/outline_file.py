@@ -37,7 +37,8 @@ def outline_from_dxf(path: Path, name: str, layer: str | None) -> CurveTable:
     try:
         curves = _curves(name, data, path, layer)
     except UnreadableError as error:
-        raise TaskError(str(path), say("the outline"), error.why, say("a DXF file with one closed loop")) from None
+        found, limit = say("not to be read"), say("a DXF file with one closed loop")
+        raise TaskError(str(path), say("the outline"), found, limit, error.why) from None
     # A speck is shorter than the gap that closes a loop.
     loops = [each for each in curves if abs(each[1][-1] - each[1][0]) <= END_GAP < np.abs(each[1] - each[1][0]).max()]
     if len(loops) != 1:
