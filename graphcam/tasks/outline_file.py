@@ -75,7 +75,8 @@ def _not_one(path: Path, curves: list[tuple[str, Points]], loops: list[tuple[str
     if not curves:
         return TaskError(str(path), say("the outline"), say("without a curve"), limit, say("draw the outline"))
     on, longest = max(curves, key=lambda each: float(np.abs(np.diff(each[1])).sum()))
-    gap, at = abs(longest[-1] - longest[0]), longest[-1]
+    at, ends = longest[-1], np.concatenate([curve[[0, -1]] for _, curve in curves])
+    gap = np.sort(np.abs(ends - at))[1]  # to the nearest end of a curve, its own start among them
     found = say("open on the layer {layer}, by {gap:.3g} mm at ({x:.2f}, {y:.2f})")
     found = found.with_values(layer=on, gap=gap, x=at.real, y=at.imag)
     return TaskError(str(path), say("the outline"), found, limit, say("join its ends"))

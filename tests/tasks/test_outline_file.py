@@ -142,6 +142,11 @@ def half(document):
     document.modelspace().add_arc((0, 0), 30, 0, 180)
 
 
+def nearly_closed(document):
+    document.modelspace().add_arc((0, 5), 30, 0, 180)
+    document.modelspace().add_arc((0, 5), 30, 180.2, 359.9)
+
+
 @over_all(
     ("draw", "head", "said"),
     [
@@ -153,6 +158,7 @@ def half(document):
         (bored, 'layer = "cam"', "layer is 'cam', but must be one of .*bore, profile"),
         (bored, "layer = 3", "outline.layer is 3"),
         (half, "", r"open on the layer 0, by 60 mm at .*join its ends"),
+        (nearly_closed, "", r"open on the layer 0, by 0\.\d+ mm at .*join its ends"),
         (lambda document: None, "", "without a curve"),
         (lambda document: document.modelspace().add_line((9, 0), (9, 0.01)), "", r"open on the layer 0, by 0\.01 mm"),
         (
