@@ -229,8 +229,6 @@ reverse.check(your_alpha_clockwise)
 compared(solution, "max_pressure_angle_rise_deg", "max_pressure_angle_return_deg")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-rise = solution.comparison.quantities["max_pressure_angle_rise_deg"]
-assert abs(rise.error_paper) <= rise.tolerance_paper
 # Each leg off by 0.3 mm, 75 mm of AD: whatever the angle, it is off by 0.3/75.
 seed = np.random.default_rng(1)
 for degree in (10, 30, 50):

@@ -362,7 +362,6 @@ exact = gc.minimum_radius(
 )
 quantity = solution.comparison.quantities["minimum_prime_radius"]
 assert abs(quantity.exact - exact.prime_radius) < 1e-9
-assert abs(quantity.error_paper) <= quantity.tolerance_paper + 1e-9
 assert sigma * exact.offset >= 0
 
 # %% [markdown]

@@ -179,9 +179,6 @@ unsafe = "on the *unsafe* side: the cam is sharper than drawn" if rho.error > 0 
 Markdown(f"With an ideal pencil the radius is off by {abs(rho.error):.2f} mm, {unsafe}. With a pencil of 0.2 mm it scatters by "
          f"{np.nanstd(rho.by_hands):.1f} mm. Why?")
 
-# %% jupyter={"source_hidden": true} tags=["remove-cell"]
-assert abs(rho.error_paper) <= rho.tolerance_paper
-
 # %% [markdown]
 # ## Where the error comes from
 #

@@ -135,6 +135,8 @@ names = {"maximum v": "max_v", "minimum radius": "minimum_prime_radius", "minimu
 budget = []
 for title, name in names.items():
     quantity = ideal.comparison.quantities[name]
+    if not quantity.exact:  # such a minimum radius is no size: any radius would do
+        continue
     hands = quantity.by_hands[np.isfinite(quantity.by_hands)]
     bias, scatter = hands.mean() - quantity.exact, hands.std()
     errors = (quantity.error, bias, scatter, np.sqrt(np.mean((hands - quantity.exact) ** 2)))
@@ -244,8 +246,9 @@ picture_of(figure, "Error against time, both axes logarithmic: the drawn constru
            "and the closed formula with no error but rounding.", "Error against time for one quantity, as the figure of graphcam bench shows it for every construction")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-# The same method has the same error, whoever does it; the drawing divides a law of unequal parts at its corner.
-assert rising.ratio != 1 or all(abs(measured[f"drawn, {parts} parts"][0] / measured[f"two running sums, {parts} parts"][0] - 1) < 1e-9 for parts in (6, 12, 24, 48))
+# The same method has the same error, whoever does it; the drawing divides a law of unequal parts at its corner, and takes its scale from all rises.
+alike = rising.ratio == 1 and sum(phase.lift > 0 for phase in task.motion().phases) == 1
+assert not alike or all(abs(measured[f"drawn, {parts} parts"][0] / measured[f"two running sums, {parts} parts"][0] - 1) < 1e-9 for parts in (6, 12, 24, 48))
 assert abs(measured["closed formula"][0] / exact - 1) < 1e-15
 
 # %% [markdown]

@@ -90,7 +90,8 @@ show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 other_way = {"cw": "ccw", "ccw": "cw"}[task.rotation]
 offset = solution.cam.follower.offset
-mirrored = gc.solve(changed(task, {"follower.offset": -offset, "rotation": other_way}))
+other_side = None if task.follower.offset is None else -offset  # an offset that is found is found again
+mirrored = gc.solve(changed(task, {"follower.offset": other_side, "rotation": other_way}))
 wrong_side = gc.solve(changed(task, {"follower.offset": -offset}))
 
 
@@ -145,15 +146,17 @@ compared(solution)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert proposed <= solution.cam.prime_radius + 1e-6 or task.cam.prime_radius is not None
-assert all(abs(q.error_paper) <= q.tolerance_paper + 1e-9 for q in solution.comparison.quantities.values() if q.exists)
 assert abs(float(mirrored.drawn["minimum_radius"].value("prime_radius")) - proposed) < 1e-9
 assert int(0.7 * 29.6) == 20
 assert 0.7 * 29.6 < 0.4 * 53
 
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+beyond = [str(quantity.title) for quantity in solution.comparison.quantities.values() if quantity.is_beyond_bound]
+verdict = "every quantity lies within its bound" if not beyond else f"all but {', '.join(beyond)} lie within their bounds: such a value is drawn with more parts"
+Markdown("The *ideal pencil* is off by the error of the method alone. graphcam proves or estimates a bound for it beforehand, and "
+         f"{verdict}; drawing by hand adds bias and scatter, notebook 7.")
+
 # %% [markdown]
-# The *ideal pencil* is off by the error of the method alone. graphcam proves or estimates a bound for it beforehand, and every quantity lies within its bound; drawing by hand adds
-# bias and scatter, notebook 7.
-#
 # ## At speed
 #
 # What the follower really does in each phase, at the speed of the task:

@@ -203,7 +203,6 @@ def quantities_of(
         (said.exact or said.name, _quantity(construction, reading, said, bounds, exact, proved))
         for construction in drawn.values()
         for reading, said in construction.meaning.compared_readings
-        if reading in construction.readings
     ]
     nan, there = math.nan, {quantity.name for _, quantity in found}
     missing = {

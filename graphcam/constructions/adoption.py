@@ -89,6 +89,11 @@ class Trial:
     shaft: float
 
     @property
+    def roller(self) -> float:
+        """Radius of the roller."""
+        return self.prime_radius - self.base
+
+    @property
     def too_sharp(self) -> float:
         """How much larger rho should be; 0 where it is large enough, or where no bend can be read."""
         return max(0.0, self.needed - self.rho) if self.rho < math.inf else 0.0
@@ -163,6 +168,18 @@ def _with_next(trials: Sequence[Trial]) -> list[tuple[Trial, Trial | None]]:
     return [*zip_longest(trials, trials[1:])]
 
 
+PROFILE_TRIAL = say(
+    "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, but the roller "
+    "and the permitted radius of the profile take {needed:g} mm. Add what is lacking, {lacking:.4g} mm, to r₀, and "
+    "round it up to {next:g} mm."
+)
+ROLLER_TRIAL = say(
+    "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, less than the "
+    "radius of the roller, {needed:g} mm, so the profile would be undercut. Add what is lacking, {lacking:.4g} mm, to "
+    "r₀, and round it up to {next:g} mm."
+)
+
+
 def _of_trial(trial: Trial, following: Trial | None) -> Caption:
     """A sentence or two on a radius that is tried, and on the next if it is too small."""
     told: list[Caption] = []
@@ -182,12 +199,11 @@ def _of_trial(trial: Trial, following: Trial | None) -> Caption:
                 )
             )
     elif trial.too_sharp >= trial.too_thin:
+        by_roller = math.isclose(trial.needed, trial.roller)
         told.append(
-            say(
-                "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, but "
-                "the roller and the permitted radius of the profile take {needed:g} mm. Add what is lacking, "
-                "{lacking:.4g} mm, to r₀, and round it up to {next:g} mm."
-            ).with_values(lacking=trial.too_sharp, next=following.prime_radius)
+            (ROLLER_TRIAL if by_roller else PROFILE_TRIAL).with_values(
+                lacking=trial.too_sharp, next=following.prime_radius
+            )
         )
     else:
         told.append(
@@ -240,6 +256,11 @@ def _against(adopted: Adoption, least: float) -> Caption:
         )
     elif adopted.given:
         told = say("The task gives r₀ = {r0:g} mm, which is larger than the minimum permitted radius, {least:.5g} mm.")
+    elif adopted.trials and adopted.trials[0].roller >= least:
+        told = say(
+            "Take r₀ = {r0:g} mm, larger than the radius of the roller; the minimum by the pressure angles is "
+            "{least:.5g} mm."
+        )
     elif math.isclose(r0, multiple(steps_up(least, adopted.rounding), adopted.rounding)):
         told = say("Round the minimum radius, {least:.5g} mm, up to r₀ = {r0:g} mm.")
     else:

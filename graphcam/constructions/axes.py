@@ -361,6 +361,12 @@ DEGREES_OFFSET, PHASES_OFFSET = 7.0, 26.0
 """So far below the lowest diagram the degrees stand, and the angles of the phases [mm]."""
 SCALE_OFFSET = 7.5
 """So far below the line of degrees the scale of a broken axis stands [mm]."""
+SAME_TICK = 1e-6
+"""An angle so near to a stroke, in parts of their distance, lies on it."""
+MIN_SHOWN_ORIGIN = 0.1
+"""Degrees that no drawing shows: where the motion begins nearer to its table's beginning, it begins with it."""
+SECOND_LINE = 12.0
+"""So far below the line of degrees that of the table stands, where it begins elsewhere; what follows is lower [mm]."""
 
 
 def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
@@ -368,11 +374,17 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
 
     On the axis itself the numbers of the stations stand, and the curve.
     """
-    level, (tick, every) = (low - DEGREES_OFFSET) * UP, degree_steps(mu_phi)
-    degrees = np.arange(0, math.degrees(mu_phi.value(end)) + tick / 2, tick)
-    degrees = degrees[mu_phi.shows(np.radians(degrees))]
-    x, lengths = mu_phi.paper(np.radians(degrees)) + level, np.where(degrees % every, TICK, LONG_TICK)
-    below = ((n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
+    return _degrees_line(end, mu_phi, (low - DEGREES_OFFSET) * UP, 0.0)
+
+
+def _degrees_line(end: float, mu_phi: Scale, level: complex, first: float) -> tuple[Mark, ...]:
+    """A line at a level, from x = 0 to ``end`` [mm of paper], with the numbers of its degrees from ``first`` on."""
+    tick, every = degree_steps(mu_phi)
+    last = first + math.degrees(mu_phi.value(end))
+    degrees = np.arange(tick * math.ceil(first / tick - SAME_TICK), last + tick * SAME_TICK, tick)
+    degrees = degrees[mu_phi.shows(np.radians(degrees - first))]
+    x, lengths = mu_phi.paper(np.radians(degrees - first)) + level, np.where(degrees % every, TICK, LONG_TICK)
+    below = ((n % 360 or n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
     low_ends, high_ends = break_strokes(mu_phi, level)
     strokes = Segments(np.append(x, low_ends), np.append(x - lengths * UP, high_ends), Role.SCALE)
     return (
@@ -390,13 +402,27 @@ def broken_angles(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]
 
 
 def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
-    """The degrees under the lowest diagram, which reaches down to ``low`` [mm of paper], and the phases' angles."""
+    """The degrees under the lowest diagram, which reaches down to ``low`` [mm of paper], and the phases' angles.
+
+    Where the motion begins elsewhere in the turn than what it was made of, a second line has the degrees of that.
+    """
     ends = phase_ends(motion, mu_phi)
-    spans = enumerate(pairwise(ends + (low - PHASES_OFFSET) * UP))
+    spans = enumerate(pairwise(ends + (low - PHASES_OFFSET - second_line(motion)) * UP))
+    as_given: tuple[Mark, ...] = ()
+    if second_line(motion):
+        level = (low - DEGREES_OFFSET - SECOND_LINE) * UP
+        line = _degrees_line(ends[-1], mu_phi, level, math.degrees(motion.origin))
+        as_given = (*line, Label(level, say("φ as given"), towards=-1 + 0j, small=True))
     return (
         *degrees_below(ends[-1], mu_phi, low),
+        *as_given,
         *(Dimension(complex(a), complex(b), phase_angle(motion, k)) for k, (a, b) in spans),
     )
+
+
+def second_line(motion: Motion) -> float:
+    """How much lower everything stands for the second line of degrees [mm of paper]; 0 where there is none."""
+    return SECOND_LINE if abs(math.degrees(motion.origin)) >= MIN_SHOWN_ORIGIN else 0.0
 
 
 def numbered_stations(points: Points, stations: Stations) -> list[int]:

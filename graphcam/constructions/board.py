@@ -196,6 +196,16 @@ class Board:
     finer: Mapping[int, Sequence[float]] = field(default_factory=dict[int, Sequence[float]])
     mu_alpha: Scale | None = None
 
+    @property
+    def needed_profile_radius(self) -> float | None:
+        """The radius of curvature of the profile [mm] that an open prime radius has to leave; None for any.
+
+        As permitted, else none: a roller that the task gives must find a prime radius on which it does not undercut.
+        """
+        if self.min_profile_radius is None and self.prime_radius is None and self.roller_radius:
+            return 0.0
+        return self.min_profile_radius
+
     @cached_property
     def stations(self) -> Stations:
         """The ends of the parts into which the phases are divided."""

@@ -63,6 +63,9 @@ def _no_radius(board: Board, trial: Trial) -> DesignError:
         remedy = say("lengthen the centre distance, take a smaller bore, or permit larger pressure angles")
         return DesignError("part.bore", say("{length:.4g} mm with keyway and wall", length=trial.shaft), limit, remedy)
     remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
+    if board.min_profile_radius is None:
+        limit = say("so small that some prime radius within the permitted pressure angles is not undercut by it")
+        return DesignError("roller radius", say("{length:.4g} mm", length=board.roller_radius), limit, remedy)
     return DesignError("limits.min_curvature_radius", board.min_profile_radius, limit, remedy)
 
 
@@ -150,13 +153,15 @@ class Chain(Drawings):
         board = self.board
         first, second = board.poles  # of the integrations, which differentiation turns round
         if isinstance(board.motion, GivenCamMotion):
-            return given_cam_differentiation(
-                self.analysis, board.motion.lift, board.mu_phi, (second, first), self.pencil
-            )
+            # The scale is that of a hand without error: one for all samples.
+            errorless = self.perfect.analysis.readings["s"].value
+            given = self.analysis, errorless, board.mu_phi, (second, first), board.paper
+            return given_cam_differentiation(*given, self.pencil)
         parts = board.divisions * len(board.motion.phases) * board.refine
         # Readings scale with the drawn lift, so the scale is that of a hand without error: one for all samples.
         mu_s = Scale(float(self.perfect.integration.readings["s"].scale), board.follower.unit)
-        return measured_differentiation(board.motion, parts, board.mu_phi, mu_s, (second, first), self.pencil)
+        given = board.motion, parts, board.mu_phi, mu_s, (second, first), board.paper
+        return measured_differentiation(*given, self.pencil)
 
     @DrawnOnce
     def minimum_radius(self) -> Construction:
@@ -302,13 +307,14 @@ class Chain(Drawings):
     def trials(self) -> tuple[Trial, ...]:
         """The prime radii that are tried one after another; the last leaves the profile blunt and thick enough.
 
-        None where neither its curvature nor its bore limits the cam, or the task gives the prime radius.
+        None where neither its curvature nor its bore limits the cam, or the task gives the prime radius; nor where a
+        given roller suits the first.
         """
         board = self.board
-        if board.prime_radius is not None or (board.min_profile_radius is None and not board.shaft_radius):
+        if board.prime_radius is not None or (board.needed_profile_radius is None and not board.shaft_radius):
             return ()
         trials = [self._tried(*self._by_angles)]
-        while lacking := max(trials[-1].too_sharp, trials[-1].too_thin):
+        while (lacking := max(trials[-1].too_sharp, trials[-1].too_thin)) > ROUNDING_SLACK * self.rounding:
             radius, place = trials[-1].prime_radius + lacking, trials[-1].place
             radius = multiple(steps_up(radius, self.rounding), self.rounding)
             places = self._places(radius)
@@ -317,7 +323,8 @@ class Chain(Drawings):
             if len(trials) == MAX_TRIALS or not lies_in(places, place, self.rounding):
                 raise _no_radius(board, trials[-1])
             trials.append(self._tried(radius, place))
-        return tuple(trials)
+        limited = board.min_profile_radius is not None or board.shaft_radius
+        return tuple(trials) if limited or len(trials) > 1 else ()
 
     def _tried(self, radius: float, place: float) -> Trial:
         """The pitch curve with these sizes, drawn by a perfect hand on another sheet, and its sharpest bend.
@@ -334,8 +341,8 @@ class Chain(Drawings):
             # The rule leaves the profile blunt enough, if it leaves a roller at all.
             touching = 0.0 if proposed >= self.rounding else self.rounding
         rho, needed = math.inf, 0.0
-        if board.min_profile_radius is not None:
-            rho, needed = float(other.curvature.value("rho")), touching + board.min_profile_radius
+        if (permitted := board.needed_profile_radius) is not None:
+            rho, needed = float(other.curvature.value("rho")), touching + permitted
         return Trial(radius, place, rho, needed, radius - roller, board.shaft_radius)
 
     @cached_property
@@ -364,8 +371,10 @@ class Chain(Drawings):
         given = self.board.follower.place is not None
         least = self.perfect.minimum_radius if given else self.perfect._least_radius(place)
         radius = multiple(steps_up(self._readable(least, "prime_radius"), self.rounding), self.rounding)
-        # Without the rest line a large offset leaves no least radius but the offset itself, which no cam can have.
-        stretched = self.board.follower.must_exceed(place) / self.rounding
+        # Without the rest line a large offset leaves no least radius but the offset itself, which no cam can have; nor
+        # can it have one of its roller.
+        smaller = max(self.board.follower.must_exceed(place), self.board.roller_radius or 0.0)
+        stretched = smaller / self.rounding
         return max(radius, multiple(math.floor(stretched + ROUNDING_SLACK) + 1, self.rounding))
 
     def _next_round_sizes(self) -> tuple[float, float] | None:

@@ -150,8 +150,8 @@ def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> C
     resting = np.broadcast_to(of_rests, (*moving.shape[:-2], *of_rests.shape))
     seen = [sharpest_of(inverted, places.points, triples) for triples in (moving, resting)]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
-    # Where nothing rests no arc is near, seen from any place.
-    at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
+    # Where nothing rests there is no arc: the places of the moving phases stand for it, and are not counted.
+    at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), at[..., 0, :], at[..., 1, :])
     names = ("P", "B", "Q")
     before, b, after = (hand.take(name, places, which=at[..., k]) for k, name in enumerate(names))
     bisectors = hand.bisect("first bisectors", before, b), hand.bisect("second bisectors", b, after)
@@ -241,7 +241,7 @@ def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 MAX_DETAIL_RADIUS = 70.0
-"""The detail is enlarged to the largest standard scale at which the radius of curvature is not longer [mm]."""
+"""The detail has the largest standard scale at which neither the radius of curvature nor a chord is longer [mm]."""
 CAREFUL_ERROR = 0.15
 """The error of a point in a careful drawing [mm]."""
 ONLY_RESTS = say(
@@ -272,11 +272,10 @@ def detail_of(curved: Curved) -> Detail | None:
     if np.isnan(curved.first("centre")):
         return None
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], errorless_hand(curved)
-    paper = curved.givens.inverted.givens.paper
-    scale = paper.kept_scale(CURVATURE.name) or standard_scale(
-        float(curved.value("rho")), MAX_DETAIL_RADIUS, paper.ratios
-    )
-    times = curved.givens.inverted.givens.mu_l.per_mm / scale.per_mm
+    paper, mu_l = curved.givens.inverted.givens.paper, curved.givens.inverted.givens.mu_l.per_mm
+    longest = max(float(curved.value("rho")), mu_l * float(np.abs(np.diff(triple.shown)).max()))
+    scale = paper.kept_scale(CURVATURE.name) or standard_scale(longest, MAX_DETAIL_RADIUS, paper.ratios)
+    times = mu_l / scale.per_mm
     shown, hub = (hand.enlarged(drawn.act.name, drawn, triple[1], times) for drawn in (triple, o))
     return Detail(hand, at_scale(CURVATURE, scale), scale.per_mm, times, shown, hub)
 

@@ -54,10 +54,13 @@ from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.telling import STATION, run
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
+from graphcam.words import sequence
 
 POSITIONS = replace(REGION, title=say("Positions of the face: the minimum radius"))
 UNIT_LENGTH = 40.0
 """The length on the paper of a vector N with K = 1 and L = 0 [mm]."""
+LONGEST_VECTOR = 2.0
+"""A vector N that were so many times as long is drawn shorter: 2, 5, 10 times and so on."""
 LINE_LENGTH, LINE_OVERHANG = 30.0, 12.0
 """How far a limit line is drawn before the circle of the cam centre, and beyond it [mm]."""
 
@@ -142,7 +145,8 @@ def swinging_face_least_radius(
     vectors = hand.lay_off("N", aside, lines.turned(1j), square)
     normals = hand.join("normals", pivot, vectors)
     permitted = (least_curvature + face_offset) / mu_l.per_mm
-    far = calculated_setting(partial(_distance_of_line, permitted), distance_between(pivot, vectors))
+    by_length = partial(_distance_of_line, permitted, sense(rotation), jumps)
+    far = calculated_setting(by_length, distance_between(pivot, vectors), *carried)
     touched = hand.lay_off("feet", pivot, normals, far)
     limits = hand.perpendicular("limits", normals, touched).turned(-1)
     moving = hand.take("limits in order", limits, which=order_with_jumps(integrated))
@@ -167,16 +171,35 @@ def swinging_face_least_radius(
     return hand.finished(givens, _draw, {"A": centre})
 
 
-def _factor(sigma: int, jumps: NDArray[np.intp], part: str, v: Floats, a: Floats, before: Floats) -> Floats:
-    """The parts of N on the paper [mm], L along the face and K square to it, and once more before every jump."""
+def _factors(sigma: int, jumps: NDArray[np.intp], v: Floats, a: Floats, before: Floats) -> tuple[Floats, Floats]:
+    """K and L, and once more before every jump."""
     v, a = (np.concatenate([one, other[..., jumps]], axis=-1) for one, other in ((v, v), (a, before)))
     w = 1 + sigma * v
-    return UNIT_LENGTH * (a / w**3 if part == "along" else (2 * w - 1) / w**2)
+    return (2 * w - 1) / w**2, a / w**3
 
 
-def _distance_of_line(permitted: float, length: Floats) -> Floats:
-    """How far a limit line passes from the pivot [mm of paper], for the length of its N."""
-    return permitted * UNIT_LENGTH / length
+def _times_shorter(square: Floats, along: Floats) -> Floats:
+    """By how much a vector N with the parts K and L is drawn shorter.
+
+    >>> _times_shorter(np.array([1.0, 1.0, 0.5]), np.array([0.0, 3.0, -60.0])).tolist()
+    [1.0, 2.0, 50.0]
+    """
+    times = np.maximum(np.hypot(square, along) / LONGEST_VECTOR, 1.0)
+    decade = 10.0 ** np.floor(np.log10(times))
+    return decade * np.select([times <= k * decade for k in (1, 2, 5)], [1.0, 2.0, 5.0], 10.0)
+
+
+def _factor(sigma: int, jumps: NDArray[np.intp], part: str, v: Floats, a: Floats, before: Floats) -> Floats:
+    """The parts of N on the paper [mm], L along the face and K square to it, and once more before every jump."""
+    square, along = _factors(sigma, jumps, v, a, before)
+    return UNIT_LENGTH * (along if part == "along" else square) / _times_shorter(square, along)
+
+
+def _distance_of_line(
+    permitted: float, sigma: int, jumps: NDArray[np.intp], length: Floats, v: Floats, a: Floats, before: Floats
+) -> Floats:
+    """How far a limit line passes from the pivot [mm of paper], for the length of its N as it is drawn."""
+    return permitted * UNIT_LENGTH / (length * _times_shorter(*_factors(sigma, jumps, v, a, before)))
 
 
 def _radius_below(offset: float, depth: Floats) -> Floats:
@@ -235,12 +258,18 @@ def _vectors_step(region: SwingingRegion) -> Step:
     aside, vectors, normals = (region.acts[name].first for name in ("ends along", "N", "normals"))
     named, every, at = _shown_lines(region)
     stations = integrated.givens.stations
-    along, square = (_first(region.acts[name].act.takes["length"]) / UNIT_LENGTH for name in ("ends along", "N"))
+    times = _shortenings(region)
+    along, square = (
+        _first(region.acts[name].act.takes["length"]) / UNIT_LENGTH * times for name in ("ends along", "N")
+    )
     v = integrated.first("v") * integrated.readings["v"].per_mm
 
     def factors(n: int) -> Caption:
         said = say("σv = {v:.4f}: K = {square:.4f}, L = {along:.4f}")
-        return said.with_values(v=sigma * float(v[at[n]]), square=float(square[n]), along=float(along[n]))
+        if times[n] > 1:
+            said = say("σv = {v:.4f}: K = {square:.4f}, L = {along:.4f}, both laid off {times:g} times shorter")
+        values = {"square": float(square[n]), "along": float(along[n]), "times": float(times[n])}
+        return said.with_values(v=sigma * float(v[at[n]]), **values)
 
     k = int(np.argmax(np.abs(along)))
     said = say(
@@ -270,6 +299,13 @@ def _vectors_step(region: SwingingRegion) -> Step:
     return Step(say("The factors of the curvature"), (Part(said, rows=rows),), _view(region), marks, why=why)
 
 
+def _shortenings(region: SwingingRegion) -> Floats:
+    """By how much every vector N is drawn shorter."""
+    integrated = region.givens.integrated
+    read = (integrated.first(name) * integrated.readings[name].per_mm for name in ("v", "a", "a_before"))
+    return _times_shorter(*_factors(sense(region.givens.rotation), jump_stations(integrated), *read))
+
+
 def _first(length: Setting) -> Floats:
     return length.amount[0] if length.sampled else length.amount
 
@@ -278,8 +314,9 @@ def _lines_step(region: SwingingRegion) -> Step:
     givens, touched = region.givens, region.acts["feet"].first
     limits, circle = region.acts["limits"].first, region.acts["circle of the centre"].first
     named, every, _ = _shown_lines(region)
-    permitted, length = givens.least_curvature + givens.face_offset, np.abs(region.acts["N"].first.shown)
-    far = _distance_of_line(permitted / givens.mu_l.per_mm, length)
+    permitted, times = givens.least_curvature + givens.face_offset, _shortenings(region)
+    length = np.abs(region.acts["N"].first.shown) * times
+    far = permitted / givens.mu_l.per_mm * UNIT_LENGTH / length
 
     def laid_off(n: int) -> Caption:
         return say("{far:.2f} mm", far=float(far[n]))
@@ -301,6 +338,9 @@ def _lines_step(region: SwingingRegion) -> Step:
             "The radius of curvature must be at least ρ = {least:g} mm, and ρ + f is zero: draw through C the normal "
             "to every CN with two set squares. A must lie below it."
         ).with_values(least=givens.least_curvature)
+    elif times.max() > 1:
+        shorter = say("A vector that is laid off shorter counts with its whole length.")
+        said = sequence([said, shorter], " ")
     rows = tuple(
         Row(STATION.with_values(name=named[n]), laid_off(n), (touched[[n]], limits[[n]])) for n in every.tolist()
     )

@@ -10,6 +10,7 @@ from graphcam.constructions.axes import (
     phase_ends,
     phases_below,
     phi_axes,
+    second_line,
 )
 from graphcam.constructions.graduation import times_below
 from graphcam.drafting.marks import Mark
@@ -54,4 +55,4 @@ class TurnGivens:
         """The numbers under the lowest diagram of all: degrees, the angles of the phases, and times."""
         low = height_range(heights)[0]
         phases = phases_below(self.motion, self.mu_phi, low)
-        return (*phases, *times_below(self.end, self.mu_phi, low, self.omega))
+        return (*phases, *times_below(self.end, self.mu_phi, low - second_line(self.motion), self.omega))

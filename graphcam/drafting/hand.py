@@ -6,6 +6,7 @@ and lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -362,7 +363,10 @@ class Hand:
     ) -> Construction[G]:
         """The construction, with all that was read, the acts, and the places that later ones go on from."""
         places = {name: left.points if isinstance(left, Drawn) else left for name, left in points.items()}
-        return Construction(self.meaning, givens, self.pencil, self.readings, places, draw, self.acts)
+        meaning, taken = self.meaning, self.readings
+        if not meaning.readings.keys() <= taken.keys():  # it tells of those that were taken alone
+            meaning = replace(meaning, readings={name: of for name, of in meaning.readings.items() if name in taken})
+        return Construction(meaning, givens, self.pencil, self.readings, places, draw, self.acts)
 
     def _record_reading(
         self, name: str, takes: Mapping[str, Any], paper: Floats, scale: Floats | float, unit: str

@@ -191,7 +191,7 @@ class MotionBands(Plottable):
         for here in _batches(self.phi.size, self.samples):
             off = np.array(made(self.phi[here])) - nominal[:, None, here]
             if np.isnan(off).any():
-                remedy = say("take smaller tolerances")
+                remedy = say("take smaller tolerances, or a larger prime radius")
                 shown = say("too wide")
                 raise DesignError("tolerances", shown, say("such that every follower reaches its cam"), remedy)
             found.deviation[:, here] = off.std(axis=1)

@@ -20,9 +20,10 @@ import nbformat.v4 as nb
 from nbformat import NotebookNode
 
 from graphcam.files import whole_folder
-from graphcam.notebooks.notebook_execution import execute
+from graphcam.notebooks.notebook_execution import MAY_FAIL, NotebookError, execute
 from graphcam.notebooks.notebook_folder import check_browser, to_html, write_page
 from graphcam.notebooks.question import QUESTIONS_FILE, Question, kept_questions, kept_text
+from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
@@ -35,6 +36,9 @@ CHECK_PATTERN = re.compile(r"^(?P<answer>your_\w+) = None.*\n(?P<question>\w+)\.
 QUESTION_PATTERN = re.compile(r"^(\w+) = Question\b", re.MULTILINE)
 MODEL_ANSWERS_PATTERN = re.compile(r"\s*<details><summary>Model answers</summary>.*?</details>", re.DOTALL)
 CLOSING_QUESTION_PATTERN = re.compile(r"^(\d+)\. ", re.MULTILINE)
+FAILED_LINE_PATTERN = re.compile(r"^-+> *\d+ (.*)$", re.MULTILINE)
+TERMINAL_COLOUR_PATTERN = re.compile(r"\x1b\[[0-9;]*m")
+"""What a traceback marks the line with that failed, and what colours it."""
 OF_AUTHOR, OF_STUDENT = "remove-cell", "try-it"
 """Tags of the cells that hold the author's checks, and the student's numbers."""
 GRADED = {"schema_version": 3, "grade": True, "solution": False, "locked": True, "task": False, "points": 1}
@@ -63,11 +67,13 @@ class Lesson:
     name : of its file, without the ending
     teacher : with its outputs
     questions : by the names that they have in the notebook
+    doubts : the author's checks that do not hold for the task: what the text says of it may not be so
     """
 
     name: str
     teacher: NotebookNode
     questions: Mapping[str, Question]
+    doubts: tuple[str, ...] = ()
 
     @property
     def answers(self) -> dict[str, Question]:
@@ -132,16 +138,33 @@ def lesson_of(path: Path, folder: Path) -> Lesson:
     Raises
     ------
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
-    NotebookError : a cell fails
+    NotebookError : a cell fails, but for an assertion of the author
     """
     notebook, kept = nbformat.read(path, 4), folder / f"{path.stem}.json"
     keeping = nb.new_code_cell(KEEPING_CODE.format(file=kept.name), id="keeping")
+    checks = [cell for cell in notebook.cells if OF_AUTHOR in cell.metadata.get("tags", ())]
+    for cell in checks:
+        cell.metadata["tags"].append(MAY_FAIL)
     notebook.cells.append(keeping)
     executed = execute(notebook, folder)
     executed.cells.pop()
     said: dict[str, str] = json.loads(kept.read_text(encoding="utf-8"))
     kept.unlink()
-    return Lesson(path.stem, executed, {name: kept_questions(text)[0] for name, text in said.items()})
+    doubts = [doubt for cell in checks for doubt in _doubts(cell)]
+    questions = {name: kept_questions(text)[0] for name, text in said.items()}
+    return Lesson(path.stem, executed, questions, tuple(doubts))
+
+
+def _doubts(cell: NotebookNode) -> Iterator[str]:
+    """The lines of an author's cell that do not hold, which is left without its output."""
+    cell.metadata["tags"].remove(MAY_FAIL)
+    for output in cell.pop("outputs"):
+        if output.output_type == "error":
+            lines = FAILED_LINE_PATTERN.findall(TERMINAL_COLOUR_PATTERN.sub("", "\n".join(output.traceback)))
+            if output.ename != "AssertionError" or not lines:
+                raise NotebookError(cell.source, f"{output.ename}: {output.evalue}")
+            yield lines[0]
+    cell["outputs"] = []
 
 
 def write_course(
@@ -166,6 +189,7 @@ def write_course(
     """
     if pdf:
         check_browser(folder)
+    solve(task)  # whatever is wrong with it is told before
     source, needed = course_source(), task_files(task)
     scripts = sorted(source.glob("[0-9][0-9]_*.ipynb"))
     with whole_folder(folder) as draft:
@@ -179,6 +203,9 @@ def write_course(
             progress(say("executing {count} notebooks", count=len(scripts)))
             lessons = list(ordered_results(executor, partial(lesson_of, folder=editions[1]), scripts))
             for lesson in lessons:
+                for doubt in lesson.doubts:
+                    said = say("{name}: what the text says may not hold for this task: {check}")
+                    progress(said.with_values(name=lesson.name, check=doubt))
                 nbformat.write(lesson.student, editions[0] / f"{lesson.name}.ipynb")
                 nbformat.write(lesson.teacher, editions[1] / f"{lesson.name}.ipynb")
             if html or pdf:

@@ -22,7 +22,7 @@ from graphcam.files import OutputError, whole_folder
 from graphcam.notebooks.notebook_execution import PYTHON_METADATA, execute
 from graphcam.report import markdown
 from graphcam.report.documents import mathml
-from graphcam.report.sheet_contents import all_constructions
+from graphcam.report.sheet_contents import all_constructions, drawn_by_design
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
@@ -163,10 +163,11 @@ def _hidden_cell(source: str) -> NotebookNode:
 
 
 def _chapter(number: int, name: str, solution: AnySolution) -> list[NotebookNode]:
-    """Title, reason and steps of a construction of the solution, or of its spring, as cells."""
+    """Title, reason and steps of a construction of the solution, or of one of its designs, as cells."""
     meaning = all_constructions(solution)[name].meaning
     title = say("{number}. {title}", number=number, title=meaning.title)
-    of = "solution" if name in solution.drawn else "solution.spring"
+    added = (f"solution.{design}" for design, drawn in drawn_by_design(solution).items() if name in drawn)
+    of = next(added, "solution")
     # Its rays are drawn in the combined diagram.
     on = ', on=solution.drawn["minimum_radius"]' * (name == "pressure_angle")
     shown = _hidden_cell(f'show_steps({of}.drawn["{name}"], within=solution{on})')

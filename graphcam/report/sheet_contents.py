@@ -122,8 +122,15 @@ def construction_named(solution: AnySolution, name: str) -> Construction:
 
 def _added_constructions(solution: AnySolution) -> Mapping[str, Construction]:
     """The constructions that a spring, the materials and the tolerances add, by name."""
-    designs = (solution.spring, solution.stress, solution.tolerances) if isinstance(solution, Solution) else ()
-    return {name: drawn for design in designs if design for name, drawn in design.drawn.items()}
+    return {name: drawn for added in drawn_by_design(solution).values() for name, drawn in added.items()}
+
+
+def drawn_by_design(solution: AnySolution) -> dict[str, Mapping[str, Construction]]:
+    """What a spring, the materials and the tolerances add, by the names that they have in the solution."""
+    if not isinstance(solution, Solution):
+        return {}
+    designs = {"spring": solution.spring, "stress": solution.stress, "tolerances": solution.tolerances}
+    return {name: design.drawn for name, design in designs.items() if design}
 
 
 def motion_contents(solution: Solution) -> Contents:

@@ -103,9 +103,9 @@ def _satisfies(cam: Cam, board: Board, slack: float) -> bool:
     """Whether a cam satisfies every limit of the task but for ``slack`` [degrees, mm]."""
     rho = cam.extremes().min_convex_radius[0]
     sharpest = board.follower.conditions.get("curvature")
-    if sharpest is None and board.min_profile_radius is not None:
+    if sharpest is None and (permitted := board.needed_profile_radius) is not None:
         roller = _by_rule(board, cam) if board.roller_radius is None else board.roller_radius
-        sharpest = board.min_profile_radius + max(roller, 0.0)
+        sharpest = permitted + max(roller, 0.0)
     if sharpest is not None and rho < sharpest - slack:
         return False
     return not any(angles_exceeded(cam, board, slack))
@@ -161,8 +161,8 @@ PLACE_CAPTIONS = {
 def _limit_arguments(chain: Chain) -> dict[str, Any]:
     """What the exact least radius is asked for at the adopted place."""
     asked = asdict(chain.board.limits) | dict(chain.board.follower.conditions)
-    if chain.board.min_profile_radius is not None:
-        asked["curvature"] = chain.board.min_profile_radius
+    if (permitted := chain.board.needed_profile_radius) is not None:
+        asked["curvature"] = permitted
     return asked | ({"offset": chain.place} if "offset" in asked else {})
 
 

@@ -283,11 +283,13 @@ def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solutio
     chain = Chain(board, pencil or Pencil())
     try:
         follower = chain.board.follower.built(chain.place, chain.roller_radius)
+        cam = Cam(task.motion(), follower, chain.prime_radius, task.rotation)
     except DesignError:
         # Where no cam centre can be read because there is none, the exact side knows the reason and a way out.
-        exact_minimum(board)
+        if board.prime_radius is None or board.follower.place is None:
+            exact_minimum(board)
         raise
-    solution = Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
+    solution = Solution(task, chain, cam)
     if solution.spring:
         solution.spring.check()
     if solution.tolerances:

@@ -210,8 +210,8 @@ def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
 DIAGRAM_MARGINS = complex(60.0, 52.0)
 """What numbers, letters, arrows and the title need about the curves of a diagram."""
 
-POLE_MARGIN = 24.0
-"""What stands to the left of a pole, and to the right of a turn."""
+POLE_MARGIN, SPEED_MARGIN = 24.0, 39.0
+"""What stands to the left of a pole, and to the right of a turn; and where a speed graduates the turn once more."""
 
 
 BROKEN_AXIS_MARGIN = 38.0
@@ -228,7 +228,7 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
-    beside = heights.turn + POLE_MARGIN
+    beside = heights.turn + (POLE_MARGIN if task.speed_rpm is None else SPEED_MARGIN)
     wide = papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0))
     if heights.mu_phi.middles:
         # Beside a finer axis the usual pole is longer: a page with room for it is preferred.

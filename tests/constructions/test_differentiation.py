@@ -289,7 +289,7 @@ def test_what_is_differentiated_of_a_motion_by_conditions_is_what_the_chain_inte
         integrated, motion = chain["integration"], conditioned_motion()
         mu_s = Scale(float(integrated.readings["s"].scale), "mm")
         parts = n * len(motion.phases)
-        drawn_ = measured_differentiation(motion, parts, chain.board.mu_phi, mu_s, POLES, Pencil())
+        drawn_ = measured_differentiation(motion, parts, chain.board.mu_phi, mu_s, POLES, chain.board.paper, Pencil())
         differences.append(abs(float(drawn_.value("max_v")) / float(integrated.value("max_v")) - 1))
     assert differences[-1] < 0.005
     assert differences[-1] < 0.5 * differences[0]

@@ -36,9 +36,10 @@ from graphcam.constructions.graduation import (
 )
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
-from graphcam.drafting.marks import Arrow, Dimension, Role, Segments
+from graphcam.drafting.marks import Arrow, Dimension, Label, Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
 from graphcam.given.stations import divide
 
 MOTION = coursework_motion("3-4-5")
@@ -228,3 +229,24 @@ def test_phases_of_one_kind_are_counted_among_themselves_where_there_are_several
     numbers_of = [phase_symbol(twice, k).values["number"] for k in range(5)]
     assert [number.index for number in numbers_of] == ["₁", "₂", "₃", "₄", "₅"]
     assert [number.again for number in numbers_of] == ["₁", "", "₂", "", ""]
+
+
+def test_a_table_that_begins_elsewhere_in_the_turn_has_its_own_degrees_below():
+    """Row 0 of a table is cam angle 0 of the cam: its numbers stand where its rows lie in the motion."""
+    shift, phi = math.radians(37), np.radians(np.arange(0, 360, 2))
+    s = gc.Motion([gc.Rise(20, 2.0), gc.Return(20, 2 * math.pi - 2.0)])(phi - shift).s
+    motion, mu_phi = gc.measured_motion(phi, s, tolerance=0.01), Scale(math.radians(1), "rad")
+    assert math.degrees(motion.origin) == pytest.approx(37, abs=0.5)
+    lines = [mark for mark in phases_below(motion, mu_phi, -10.0) if isinstance(mark, Label) and mark.at.imag < -25]
+    title, *numbers = sorted(lines, key=lambda mark: mark.at.real)
+    assert str(title.text) == "φ as given"
+    assert [str(mark.text) for mark in numbers] == [f"{n % 360 or n}°" for n in range(60, 391, 30)]
+    assert_allclose([mark.at.real + math.degrees(motion.origin) for mark in numbers], range(60, 391, 30))
+    # What stood below is so much lower; a motion that begins where its table does has no second line.
+    given = gc.Motion(motion.phases)
+    low = [
+        [mark.start.imag for mark in phases_below(each, mu_phi, -10.0) if isinstance(mark, Dimension)]
+        for each in (motion, given)
+    ]
+    assert_allclose(np.array(low[1]) - low[0], 12)
+    assert all("given" not in str(mark.text) for mark in phases_below(given, mu_phi, -10.0) if isinstance(mark, Label))

@@ -19,7 +19,7 @@ from graphcam.cli import app
 from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.exercises.grading.notebook_marks import course_questions, typed_numbers
 from graphcam.notebooks import changed, course_editions
-from graphcam.notebooks.notebook_execution import execute
+from graphcam.notebooks.notebook_execution import NotebookError, execute
 from graphcam.notebooks.question import QUESTIONS_FILE
 from graphcam.tasks.task_writer import task_files
 
@@ -206,3 +206,25 @@ def test_the_last_line_counts_and_the_comment_does_not():
     ]
     data = json.dumps({"cells": [{"cell_type": "code", "source": source}]}).encode()
     assert typed_numbers("a.ipynb", data) == {"your_r0": "42,5 mm", "your_e": "-10"}
+
+
+def author_checks(folder: Path, *checks: str) -> Path:
+    """A lesson whose author checks these things."""
+    cells = [nbformat.v4.new_code_cell(check, metadata={"tags": ["remove-cell"]}) for check in checks]
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), folder / "99_checks.ipynb")
+    return folder / "99_checks.ipynb"
+
+
+def test_a_check_of_the_author_that_does_not_hold_for_the_task_is_told_and_stops_nothing(tmp_path):
+    path = author_checks(tmp_path, "lift = 30\nassert lift == 30\nassert lift == 20  # mm", "assert lift > 20")
+    lesson = course_editions.lesson_of(path, tmp_path)
+    assert lesson.doubts == ("assert lift == 20  # mm",)
+    assert all(cell.outputs == [] and cell.metadata.tags == ["remove-cell"] for cell in lesson.teacher.cells)
+    with pytest.raises(NotebookError, match="ZeroDivisionError"):
+        course_editions.lesson_of(author_checks(tmp_path, "1 / 0"), tmp_path)
+
+
+def test_a_task_without_a_cam_is_refused_before_anything_is_executed(tmp_path):
+    with pytest.raises(gc.DesignError, match="prime radius"):
+        course_editions.write_course(changed(TASK, {"cam.prime_radius": 3.0}), tmp_path / "course")
+    assert not (tmp_path / "course").exists()

@@ -22,8 +22,11 @@ from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.notebooks import changed, notebook_execution
 from graphcam.notebooks.notebook_execution import execute
 from graphcam.notebooks.notebook_folder import to_html, write_notebook
+from graphcam.report.sheet_contents import names_of
+from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_writer import task_files
+from graphcam.tasks.tolerances_table import TolerancesTable
 
 pytestmark = pytest.mark.slow
 
@@ -48,12 +51,15 @@ TASKS = {
     "arm, distance left open": changed(ARM, {"follower.distance": None, "cam.prime_radius": None}),
     "flat": FLAT,
     "flat with a spring": changed(FLAT, SPRING),
+    "spring, material, tolerances": changed(
+        COURSEWORK, {**SPRING, "material": MaterialTable(width=12.0), "tolerances": TolerancesTable((0.01,), (2,))}
+    ),
     "measured": gc.builtin_task("measured"),
     "arcs": gc.builtin_arcs_task(),
 }
 
-EXECUTED = ("spring", "arm, distance left open", "arcs")
-"""A stem with a spring, an arm, three arcs: the cells of the others are like theirs."""
+EXECUTED = ("spring, material, tolerances", "arm, distance left open", "arcs")
+"""A stem with all that a task may ask for, an arm, three arcs: the cells of the others are like theirs."""
 
 
 def written(folder, task):
@@ -72,8 +78,10 @@ def test_every_construction_has_its_chapter(name):
     notebook = write_notebook(TASKS[name])
     nbformat.validate(notebook)
     source = "\n".join(cell.source for cell in notebook.cells)
-    for construction in gc.solve(TASKS[name]).drawn:
-        assert f'show_steps(solution.drawn["{construction}"], within=solution' in source
+    # Where a cell takes a construction from, there it is.
+    solution = gc.solve(TASKS[name])
+    taken = re.findall(r"show_steps\((solution[^,]*), within=solution", source)
+    assert [eval(each, {"solution": solution}).name for each in taken] == names_of(solution)
     assert not any(cell.get("outputs") for cell in notebook.cells)
     assert nbformat.writes(write_notebook(TASKS[name])) == nbformat.writes(notebook)
 

@@ -10,8 +10,9 @@ import graphcam as gc
 from graphcam.given.limits_and_fits import shaft_radius
 from graphcam.report.note import note
 from graphcam.report.sheet_data import data
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.task import CamTable, Task
+from graphcam.tasks.task import CamTable, Task, TranslatingTable
 from graphcam.workshop.part_contents import PartContents
 
 
@@ -62,3 +63,11 @@ def test_a_small_bore_changes_nothing_and_a_given_radius_stays():
 def test_what_no_radius_at_a_centre_distance_leaves_is_refused():
     with pytest.raises(gc.DesignError, match=r"part\.bore is .* mm with keyway and wall, but must be so small"):
         gc.solve(bored("arm", 400.0, distance=150.0))
+
+
+def test_a_radius_that_leaves_just_what_the_shaft_takes_suffices_but_for_rounding():
+    """25.5 - 12.8 is less than 12.7 by rounding alone: no radius was ever found."""
+    phases = DwellTable(23), RiseTable(212, 11, "4-5-6-7"), DwellTable(58), ReturnTable(67, 11, "rectangular")
+    task = Task("cw", MotionTable(phases), TranslatingTable(None, 12.8), part=PartTable(bore=16))
+    assert shaft_radius(16, keyed=True) > 25.5 - 12.8
+    assert gc.solve(task).cam.prime_radius == 25.5

@@ -54,7 +54,8 @@ def test_every_trial_adds_what_the_radius_of_curvature_lacks(task):
     """The first radius is that of the angles, the last the first that is read to suffice; the drawing adopts it."""
     solution = gc.solve(task)
     *short, last = solution.chain.trials
-    angles = gc.solve(replace(task, limits=replace(task.limits, min_curvature_radius=None)))
+    free = replace(task.limits, min_curvature_radius=None)
+    angles = gc.solve(replace(task, limits=free, follower=replace(task.follower, roller_radius=0.0)))
     assert short
     assert short[0].prime_radius == angles.cam.prime_radius
     for tried, following in zip(short, [*short[1:], last], strict=True):
@@ -66,6 +67,26 @@ def test_every_trial_adds_what_the_radius_of_curvature_lacks(task):
     # The drawing reads a bend as well as its divisions permit: where that is too well, it is warned of.
     warned = any("radius of curvature of the profile falls" in each for each in solution.warnings)
     assert warned == (profile_radius(solution) < task.limits.min_curvature_radius - 0.005)
+
+
+@over_all("roller", [4.0, 12.0, 20.0, 30.0])
+@over_all("offset", [0.0, 5.0])
+def test_an_open_radius_is_one_on_which_a_given_roller_does_not_undercut(roller, offset):
+    limits, drawing = LimitsTable(45, 70), DrawingTable(divisions=48)
+    task = replace(SHARP, follower=TranslatingTable(offset, roller), limits=limits, drawing=drawing)
+    solution, knife = gc.solve(task), gc.solve(replace(task, follower=TranslatingTable(offset, 0.0)))
+    asked = {"rise": math.radians(45), "return_": math.radians(70), "offset": offset, "curvature": 0.0}
+    least = gc.minimum_radius(task.motion(), gc.Translating(offset, roller), "ccw", **asked).prime_radius
+    # Up to what the drawing misses of it; a radius that suffices is told of as without a roller.
+    assert max(least, knife.cam.prime_radius) - 0.1 <= solution.cam.prime_radius < least + 1.1
+    assert (solution.cam.prime_radius == knife.cam.prime_radius) == (solution.chain.trials == ())
+    assert bool(solution.chain.trials) == (knife.cam.extremes().min_convex_radius[0] < roller)
+
+
+def test_a_roller_that_no_radius_at_a_centre_distance_can_have_is_refused():
+    with pytest.raises(gc.DesignError, match="is not undercut by it") as caught:
+        gc.solve(replace(changed("arm", roller=120, least=1, place=150.0), limits=LimitsTable(45)))
+    assert str(caught.value.quantity) == "roller radius"
 
 
 def test_the_warning_names_a_radius_that_keeps_the_limit():
