@@ -180,6 +180,8 @@ def _curve(entity: Any, factor: float, flatness: float) -> Points:
 
     if entity.dxftype() == "SPLINE" and not len(entity.control_points) and len(entity.fit_points) > MAX_FIT_POINTS:
         raise UnreadableError(say("a {kind} has more than {most} points", kind="SPLINE", most=MAX_FIT_POINTS))
+    if entity.dxftype() == "ARC" and not entity.dxf.radius:
+        return np.array([_place(entity.ocs().to_wcs(entity.dxf.center), factor)] * 2)  # a piece of no length
     if entity.dxftype() == "POLYLINE":
         # A program that fits a curve to a polyline keeps the corners that it had before.
         drawn = [each for each in entity.vertices if not each.get_flag_state(each.SPLINE_FRAME_CONTROL_POINT)]

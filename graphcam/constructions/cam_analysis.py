@@ -26,9 +26,9 @@ from graphcam.drafting.meaning import ComparedReading, Meaning, ReadingMeaning
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.telling import STATION, circle_caption, run
 from graphcam.given.follower import Rotation, sense
-from graphcam.given.laid_outline import LaidOutline
+from graphcam.given.laid_outline import GivenCamMotion, LaidOutline
 from graphcam.given.laws import Floats
-from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.motion import FULL_TURN
 from graphcam.words import Words, say_in, sequence
 
 NUMBERS_ROOM = 5.0
@@ -65,7 +65,7 @@ class AnalysisGivens:
     """
 
     outline: LaidOutline
-    motion: Motion
+    motion: GivenCamMotion
     rotation: Rotation
     prime_radius: float
     roller_radius: float
@@ -251,7 +251,7 @@ def measure_angles(
     sigma : counter-clockwise they are measured, or clockwise;  on_joints, angles : the lines of motion on the joints of
         the outline, where an angle may be greatest too, and their cam angles
     """
-    normals = hand.tangents_at("tangents", places).turned(UP * sense(givens.rotation))
+    normals = hand.tangents_at("tangents", places).turned(UP * sense(givens.motion.rotation))
     measured = [hand.carry(hand.angle("alpha", motion, normals, sigma)), s]
     if on_joints is not None and angles is not None:
         there = hand.tangents_at("normals at the joints", hand.acts["normals"][joints(givens)])

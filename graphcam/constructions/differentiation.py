@@ -202,19 +202,20 @@ def given_cam_differentiation(
     """
     s, phi = analysis.readings["s"], analysis.givens.phi
     # As the dividers take them, or so many times: an angle in a round number of degrees a millimetre.
-    steps = np.radians(DEGREES_PER_MM) if s.unit == "rad" else s.per_mm / np.array(ENLARGEMENTS)
+    measured = s.per_mm if s.unit == "rad" else analysis.givens.mu_l.per_mm  # whatever scale it is read by
+    steps = np.radians(DEGREES_PER_MM) if s.unit == "rad" else measured / np.array(ENLARGEMENTS)
     fits = [mu for mu in sorted(steps.tolist()) if np.ptp(errorless) / mu <= MAX_LIFT] or [float(steps.max())]
     turn, meaning = FULL_TURN / mu_phi.per_mm, GIVEN_CAM_MEANING
 
     def poles_at(mu: float) -> tuple[float, float]:
         # What was measured on the cam is off by about two lines, which the diagram enlarges.
-        off = pencil.line * max(1.0, 2 * s.per_mm / mu)
+        off = pencil.line * max(1.0, 2 * measured / mu)
         return _poles_on(paper, errorless / mu, turn / phi.size, poles, off)
 
     on_paper = [(mu, poles_at(mu)) for mu in fits]
     # Rather a smaller displacement than a pole that is too short to draw rays from.
     per_mm, poles = next((found for found in on_paper if min(found[1]) >= SHORT_POLE), on_paper[-1])
-    mu_s = Scale(per_mm, s.unit)
+    mu_s = Scale(per_mm * s.per_mm / measured, s.unit)
     return differentiation(phi / mu_phi.per_mm, s, mu_phi, mu_s, poles, pencil, turn=turn, meaning=meaning)
 
 

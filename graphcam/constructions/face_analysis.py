@@ -23,6 +23,7 @@ MEANING = replace(
         "The cam is held still and the face goes round it, against the cam's rotation. In every position the face "
         "touches the outline, and its distance from the cam centre tells how far the follower has moved."
     ),
+    readings={name: cam_analysis.MEANING.readings[name] for name in ("s", "lift", "phase_angles", "rise_angle")},
 )
 """Of the analysis under a face square to its motion: the pressure angle is zero, and none is measured."""
 

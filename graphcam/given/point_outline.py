@@ -260,7 +260,8 @@ def _laying(follower: Follower, outline: PointOutline, sigma: int) -> Laying:
         most, angle = outline.hollow_radius(places), _at(outline, places)
         limit = say("at most {most:.4g} mm, the radius of the hollow at {angle}", most=most, angle=angle)
         found = say("{radius:.6g}", radius=roller)
-        return DesignError(say("roller radius"), found, limit, say("take a smaller roller"))
+        remedy = say("take a smaller roller, or where measured points scatter a larger tolerance")
+        return DesignError(say("roller radius"), found, limit, remedy)
 
     return Laying(touching, way.at, way.arm, gaps, too_hollow)
 

@@ -17,7 +17,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from graphcam.decoded_text import decoded_text
-from graphcam.errors import TaskError, unreadable_error
+from graphcam.errors import DesignError, TaskError, unreadable_error
 from graphcam.given.laws import Floats
 from graphcam.given.measured import (
     DEFAULT_TOLERANCE,
@@ -190,6 +190,8 @@ def table_from_text(
         number = min(error.row, max(len(rows) - 1, 0)) + _FIRST_ROW
         line = say("line {number}: {quantity}", number=number, quantity=error.args[0])
         raise TaskError(path, line, *error.args[1:]) from None
+    except DesignError as error:
+        raise TaskError(path, *error.args) from None
     return CurveTable(name, heads.column, rows)
 
 

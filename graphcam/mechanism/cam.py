@@ -21,10 +21,10 @@ from graphcam.given.follower import FOLLOWER_CLASSES, Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
 from graphcam.given.piecewise import chunks, sine_cosine
-from graphcam.mechanism.envelope import Envelope
+from graphcam.mechanism.envelope import Envelope, outer_wall
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.turn_extremes import Extreme, Places, first_index, highest_places, places_from, turn_maximum
+from graphcam.mechanism.turn_extremes import Extreme, Places, first_index, highest_places, places_from
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import MAX_WIDTH, Plottable, value_text
 from graphcam.words import say
@@ -160,15 +160,7 @@ class Cam(Plottable):
         ------
         DesignError : the follower has no roller, or the roller does not fit the hollows of its path
         """
-        if not self.roller_radius:
-            limit = say("left or right, without a roller")
-            raise DesignError("side", "outer", limit, say("a groove guides a roller"))
-        hollow = turn_maximum(self.motion, lambda places: -self.kinematics.curvature(places.values))
-        if hollow.value * self.roller_radius >= 1:
-            limit = say("less than {radius:.4g} mm, the radius of the hollow of its path at {phi:.4g} degrees")
-            limit = limit.with_values(radius=1 / hollow.value, phi=math.degrees(hollow.phi))
-            raise DesignError(say("roller radius"), self.roller_radius, limit, say("take a smaller roller"))
-        return Envelope(self.motion, self.kinematics, -self.roller_radius)
+        return outer_wall(self.motion, self.kinematics, self.roller_radius)
 
     @property
     def table_turn(self) -> complex:

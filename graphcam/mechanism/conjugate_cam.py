@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,12 +23,57 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.former_names import renamed
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import wrap
+from graphcam.given.motion import Motion, wrap
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.kinematics import Complexes, Values
+from graphcam.mechanism.envelope import Envelope, outer_wall
+from graphcam.mechanism.kinematics import Complexes, Kinematics, RollerKinematics, Values
 from graphcam.mechanism.turn_extremes import Places, ValueAt, turn_maximum
 from graphcam.plane_vectors import cross, dot
 from graphcam.words import say
+
+
+@dataclass(frozen=True, eq=False)
+class _SecondPath:
+    """The path of the second roller's centre, which lies in ``at`` when the follower is lowest; see the module."""
+
+    kinematics: Kinematics
+    at: complex
+    takes_roller: ClassVar[bool] = True
+
+    @property
+    def sigma(self) -> Any:
+        return self.kinematics.sigma
+
+    @property
+    def prime_radius(self) -> float:
+        return abs(self.at)
+
+    def bent(self, values: Values) -> tuple[Complexes, Complexes, Complexes]:
+        """The centre in the frame, and the first two derivatives of its path as the cam sees it."""
+        s, v, a, _ = values
+        centre, by_s, bent_by_s = self.kinematics.carried(self.at, s)
+        turning, moved = 1j * self.sigma, by_s * v
+        return centre, moved - turning * centre, by_s * a + bent_by_s * v * v - 2 * turning * moved - centre
+
+    def point(self, values: Values) -> Complexes:
+        return self.bent(values)[0]
+
+    def normal(self, values: Values) -> Complexes:
+        along = self.bent(values)[1]
+        return 1j * self.sigma * along / np.abs(along)
+
+    def speed(self, values: Values, inset: float) -> Floats:
+        return np.abs(self.bent(values)[1]) * (1 - inset * self.curvature(values))
+
+    def curvature(self, values: Values) -> Floats:
+        _, along, bent = self.bent(values)
+        return -self.sigma * cross(along, bent) / np.abs(along) ** 3
+
+    def sharpness(self, values: Values) -> Floats:
+        return self.curvature(values)
+
+    def convex_radius(self, values: Values) -> Floats:
+        return RollerKinematics.radius_of(self.curvature(values))
 
 
 @renamed(least_radius="min_convex_radius")
@@ -70,7 +116,7 @@ class ConjugateCam:
         for coordinate in self.at:
             check_number("at", coordinate, say("two finite coordinates in mm"))
         check_number("roller_radius", self.roller_radius, say("a finite length of 0 mm or more"), least=0)
-        freed = turn_maximum(self.cam.motion, self._pushed)
+        freed = turn_maximum(self.motion, self._pushed)
         if freed.value >= 0:
             place = say("({x:g}, {y:g})", x=self.at[0], y=self.at[1])
             limit = say("where the second cam pushes the follower back to the first, at {phi:.4g} degrees too")
@@ -85,39 +131,58 @@ class ConjugateCam:
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the path of the second roller's centre on the cam [mm], at cam angles phi [rad]."""
         phi = wrap(np.asarray(phi, dtype=np.float64))
-        return self._on_cam(self._path(self.cam.motion(phi, side))[0], phi)
+        return self._on_cam(self._path.point(self.motion(phi, side)), phi)
 
     def profile(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the second cam's working profile [mm], in the coordinates of the first cam."""
         phi = wrap(np.asarray(phi, dtype=np.float64))
-        centre, along, _ = self._path(self.cam.motion(phi, side))
-        return self._on_cam(centre - self.roller_radius * self._outward(along), phi)
+        values = self.motion(phi, side)
+        return self._on_cam(self._path.point(values) - self.roller_radius * self._path.normal(values), phi)
+
+    @property
+    def motion(self) -> Motion:
+        """The motion of the follower, which both cams give it."""
+        return self.cam.motion
+
+    @property
+    def sigma(self) -> int:
+        """The sense in which both cams turn."""
+        return self.cam.sigma
+
+    @property
+    def prime_radius(self) -> float:
+        """The distance of the second roller's centre from the cam centre with the follower in its lowest position."""
+        return self._path.prime_radius
+
+    @property
+    def table_turn(self) -> complex:
+        """As of the first cam."""
+        return self.cam.table_turn
+
+    @cached_property
+    def envelope(self) -> Envelope:
+        """The profile as a curve."""
+        return Envelope(self.motion, self._path, self.roller_radius)
+
+    @cached_property
+    def outer_wall(self) -> Envelope:
+        """The outer wall of a groove for the second roller."""
+        return outer_wall(self.motion, self._path, self.roller_radius)
 
     @cached_property
     def min_convex_radius(self) -> ValueAt:
         """The minimum convex radius of curvature of the path of the second roller's centre [mm], and its place."""
-        sharpest = turn_maximum(self.cam.motion, self._curvature)
+        sharpest = turn_maximum(self.motion, lambda places: self._path.curvature(places.values))
         return sharpest._replace(value=1 / sharpest.value if sharpest.value > 0 else math.inf)
 
-    def _path(self, values: Values) -> tuple[Complexes, Complexes, Complexes]:
-        """The second roller's centre in the frame, and the first two derivatives of its path as the cam sees it."""
-        s, v, a, _ = values
-        centre, by_s, bent_by_s = self.cam.kinematics.carried(complex(*self.at), s)
-        turning, moved = 1j * self.cam.sigma, by_s * v
-        return centre, moved - turning * centre, by_s * a + bent_by_s * v * v - 2 * turning * moved - centre
-
-    def _outward(self, along: Complexes) -> Complexes:
-        """The unit normal of the path away from the cam."""
-        return 1j * self.cam.sigma * along / np.abs(along)
+    @cached_property
+    def _path(self) -> _SecondPath:
+        return _SecondPath(self.cam.kinematics, complex(*self.at))
 
     def _pushed(self, places: Places) -> Floats:
         """How the second cam pushes the follower, by a unit of force: below 0 towards the first cam."""
         _, by_s, _ = self.cam.kinematics.carried(complex(*self.at), places.values[0])
-        return dot(by_s, self._outward(self._path(places.values)[1])) / np.abs(by_s)
-
-    def _curvature(self, places: Places) -> Floats:
-        _, along, bent = self._path(places.values)
-        return -self.cam.sigma * cross(along, bent) / np.abs(along) ** 3
+        return dot(by_s, self._path.normal(places.values)) / np.abs(by_s)
 
     def _on_cam(self, points: Complexes, phi: Floats) -> Floats:
         turned = points * np.exp(-1j * self.cam.sigma * phi)

@@ -10,17 +10,21 @@ cam: the cam's centre is nowhere nearer to the pitch curve than there, so the ro
 profile and no other roller circle reaches in.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.root_finding import roots
-from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
-from graphcam.mechanism.turn_extremes import Places, highest_places, smooth_pieces, stationary_places
+from graphcam.mechanism.kinematics import Complexes, Values
+from graphcam.mechanism.turn_extremes import Places, highest_places, smooth_pieces, stationary_places, turn_maximum
+from graphcam.words import say
 
 Indices = NDArray[np.intp]
 CUSP_TOLERANCE = 1e-12
@@ -47,6 +51,23 @@ class BackwardStretch:
     end_jumps: bool
 
 
+class _FollowedPath(Protocol):
+    """What an envelope needs of the pitch curve, as :class:`~graphcam.mechanism.kinematics.Kinematics` has it."""
+
+    takes_roller: ClassVar[bool]
+
+    @property
+    def sigma(self) -> Any: ...
+    @property
+    def prime_radius(self) -> Any: ...
+    def point(self, values: Values) -> Complexes: ...
+    def normal(self, values: Values) -> Complexes: ...
+    def speed(self, values: Values, inset: float) -> Floats: ...
+    def curvature(self, values: Values) -> Floats: ...
+    def sharpness(self, values: Values) -> Floats: ...
+    def convex_radius(self, values: Values) -> Floats: ...
+
+
 @dataclass(frozen=True, eq=False)
 class Envelope:
     """The profile of a cam over one turn, from the lowest place on.
@@ -57,7 +78,7 @@ class Envelope:
     """
 
     motion: Motion
-    kinematics: Kinematics
+    kinematics: _FollowedPath
     roller_radius: float
 
     @cached_property
@@ -226,3 +247,21 @@ class Envelope:
         phi, piece = self._nodes
         change = np.abs(self.speed(phi[before + 1], piece[before + 1]) - self.speed(phi[before], piece[before]))
         return (piece[before] != piece[before + 1]) & (change > JUMP_SHARE * self.prime_radius)
+
+
+def outer_wall(motion: Motion, path: _FollowedPath, roller_radius: float) -> Envelope:
+    """The outer wall of a groove for a roller: the pitch curve moved outwards by its radius.
+
+    Raises
+    ------
+    DesignError : there is no roller, or it does not fit the hollows of its path
+    """
+    if not roller_radius:
+        limit = say("left or right, without a roller")
+        raise DesignError("side", "outer", limit, say("a groove guides a roller"))
+    hollow = turn_maximum(motion, lambda places: -path.curvature(places.values))
+    if hollow.value * roller_radius >= 1:
+        limit = say("less than {radius:.4g} mm, the radius of the hollow of its path at {phi:.4g} degrees")
+        limit = limit.with_values(radius=1 / hollow.value, phi=math.degrees(hollow.phi))
+        raise DesignError(say("roller radius"), roller_radius, limit, say("take a smaller roller"))
+    return Envelope(motion, path, -roller_radius)

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.conjugate_cam import ConjugateCam
 from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted_control_points
@@ -151,7 +152,7 @@ class ProfileSpline:
 
 
 def profile_spline(
-    cam: Cam,
+    cam: Cam | ConjugateCam,
     deviation: float = DEFAULT_DEVIATION,
     *,
     degree: Degree = 3,

@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from graphcam.dxf_curves import Points, joined_curves, read_layers
-from graphcam.errors import TaskError, UnreadableError, unreadable_error
-from graphcam.given.measured import RowError
+from graphcam.errors import DesignError, TaskError, UnreadableError, unreadable_error
 from graphcam.given.point_outline import MAX_POINTS, cam_through_points
 from graphcam.given.table_file import CurveTable
 from graphcam.words import Caption, say, sequence
@@ -15,6 +14,8 @@ FLATNESS = 2e-5
 """A curve is replaced by points whose chords stay so near to it [mm]."""
 END_GAP = 0.02
 """Ends as near as this meet [mm]."""
+MAX_CORNER, CORNER_REACH = 20.0, 0.1
+"""Where an outline turns by more [degrees] from so far before to so far behind a place [mm], it has a corner."""
 POINT_COUNT = 720
 """A straight part has at least so many points for a length as that of the whole outline."""
 
@@ -36,14 +37,18 @@ def outline_from_dxf(path: Path, name: str, layer: str | None) -> CurveTable:
     try:
         curves = _curves(name, data, path, layer)
     except UnreadableError as error:
-        raise TaskError(str(path), say("the outline"), error.why, say("a DXF file with one closed loop")) from None
-    loops = [(on, curve) for on, curve in curves if abs(curve[-1] - curve[0]) <= END_GAP]
+        found, limit = say("not to be read"), say("a DXF file with one closed loop")
+        raise TaskError(str(path), say("the outline"), found, limit, error.why) from None
+    # A speck is shorter than the gap that closes a loop.
+    loops = [each for each in curves if abs(each[1][-1] - each[1][0]) <= END_GAP < np.abs(each[1] - each[1][0]).max()]
     if len(loops) != 1:
         raise _not_one(path, curves, loops)
-    rows = _dense(loops[0][1][:-1])
+    corners = loops[0][1][:-1]
+    _check_smooth(path, corners)
+    rows = _dense(corners)
     try:
         cam_through_points(rows)
-    except RowError as error:
+    except DesignError as error:
         raise TaskError(str(path), *error.args) from None
     return CurveTable(name, "outline", tuple((z.real, z.imag) for z in rows.tolist()))
 
@@ -70,10 +75,25 @@ def _not_one(path: Path, curves: list[tuple[str, Points]], loops: list[tuple[str
     if not curves:
         return TaskError(str(path), say("the outline"), say("without a curve"), limit, say("draw the outline"))
     on, longest = max(curves, key=lambda each: float(np.abs(np.diff(each[1])).sum()))
-    gap, at = abs(longest[-1] - longest[0]), longest[-1]
+    at, ends = longest[-1], np.concatenate([curve[[0, -1]] for _, curve in curves])
+    gap = np.sort(np.abs(ends - at))[1]  # to the nearest end of a curve, its own start among them
     found = say("open on the layer {layer}, by {gap:.3g} mm at ({x:.2f}, {y:.2f})")
     found = found.with_values(layer=on, gap=gap, x=at.real, y=at.imag)
     return TaskError(str(path), say("the outline"), found, limit, say("join its ends"))
+
+
+def _check_smooth(path: Path, corners: Points) -> None:
+    """Check that a closed curve has no corner: the spline through its points would swing on either side of one."""
+    ends = np.append(corners, corners[0])
+    along = np.append(0.0, np.cumsum(np.abs(np.diff(ends))))
+    behind, ahead = (np.interp((along[:-1] + way) % along[-1], along, ends) for way in (-CORNER_REACH, CORNER_REACH))
+    turns = np.abs(np.degrees(np.angle((ahead - corners) * np.conj(corners - behind))))
+    k = int(np.argmax(turns))
+    if turns[k] > MAX_CORNER:
+        found = say("bent by {angle:.3g}° in a corner at ({x:.2f}, {y:.2f})")
+        found = found.with_values(angle=turns[k], x=corners[k].real, y=corners[k].imag)
+        limit, remedy = say("smooth all around"), say("round it by an arc")
+        raise TaskError(str(path), say("the outline"), found, limit, remedy)
 
 
 def _dense(corners: Points) -> Points:

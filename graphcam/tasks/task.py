@@ -39,7 +39,7 @@ from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.units import Length, PaperLength, PermittedAngle, Size, SizeOrZero, Speed, check_turning
-from graphcam.words import say
+from graphcam.words import Words, say
 
 ANGLE_RANGE = Fixed(15.0, 60.0, 1.0)
 """Of permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
@@ -518,10 +518,10 @@ class Task:
         try:
             motion()
         except DesignError as error:
-            key = GIVEN_CAM_KEYS.get(str(error.quantity), "")
-            if motion.radii is None and key.startswith("arcs"):
-                key = "motion.table"
-            raise DesignError(key or error.args[0], *error.args[1:]) from None
+            key: Words = GIVEN_CAM_KEYS.get(str(error.quantity), "") or error.args[0]
+            if motion.radii is None and str(key).startswith("arcs"):
+                key = say("base radius")  # of the points, which no key gives
+            raise DesignError(key, *error.args[1:]) from None
 
     @property
     def prime_radius(self) -> float | None:

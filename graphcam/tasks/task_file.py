@@ -346,7 +346,13 @@ def _task(path: str, data: dict[str, Any], whole: dict[str, Any], read: ReadToml
         expected = say("a task, with phases of motion: 'graphcam init FILE' writes one")
         raise TaskError(path, say("the file"), say("a space of designs"), expected, say("'graphcam sweep' takes it"))
     arcs = data.get("arcs")
-    if isinstance(arcs, dict) and "base_radius" in arcs and "D" not in arcs and "motion" not in data:
+    if isinstance(arcs, dict) and "base_radius" in arcs:
+        if "D" in arcs:
+            limit = say("given by radii or by points, not by both")
+            raise TaskError(path, "arcs", say("with base_radius and D"), limit, say("delete one of the two"))
+        if "motion" in data:
+            limit = say("left out where the cam is given")
+            raise TaskError(path, "motion", _shown_value(data["motion"]), limit, say("give one of the two"))
         # The radii of a given cam are a motion, of which ``[arcs]`` is the table.
         whole = {"rotation": "ccw", **whole, "motion": {"radii": arcs}}
         del whole["arcs"]

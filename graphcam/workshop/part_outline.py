@@ -19,6 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.conjugate_cam import ConjugateCam
 from graphcam.mechanism.envelope import GAUSS_NODES, GAUSS_WEIGHTS, Envelope
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.undercut import LostStretch, kept_arcs, lost_parts
@@ -256,8 +257,8 @@ def outline_of(solution: AnySolution) -> Outline:
     return _of_arcs(solution) if isinstance(solution, ArcsSolution) else of_cam(solution.cam)
 
 
-def of_cam(cam: Cam) -> Outline:
-    """The outline of a cam.
+def of_cam(cam: Cam | ConjugateCam) -> Outline:
+    """The outline of a cam, or of the second one of a conjugate pair.
 
     Raises
     ------

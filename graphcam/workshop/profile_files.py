@@ -14,6 +14,7 @@ import numpy as np
 
 from graphcam.given.motion import wrap
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.conjugate_cam import ConjugateCam
 from graphcam.mechanism.profile_spline import ProfileSpline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
 from graphcam.plane_vectors import turned
@@ -24,7 +25,7 @@ FILE_NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profi
 
 
 def write_curves(
-    cam: Cam,
+    cam: Cam | ConjugateCam,
     spline: ProfileSpline | None,
     folder: Path,
     kinds: Collection[str] = tuple(FILE_NAMES),
@@ -60,7 +61,7 @@ def write_curves(
     return wanted
 
 
-def _from_table_zero(cam: Cam, cut: CutProfile) -> CutProfile:
+def _from_table_zero(cam: Cam | ConjugateCam, cut: CutProfile) -> CutProfile:
     """The profile with the cam angles of the table that the motion was made of, and turned so."""
     return CutProfile(wrap(cut.phi + cam.motion.origin), turned(cut.points, cam.table_turn), cut.corner)
 

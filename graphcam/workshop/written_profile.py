@@ -10,6 +10,7 @@ from typing import Any, Literal, get_args
 from graphcam.errors import DesignError, check_kind, nearest_word_remedy, suggestion
 from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.conjugate_cam import ConjugateCam
 from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import say
@@ -27,7 +28,7 @@ SPLINE_KINDS = "dxf", "step"
 
 
 def write_profile(
-    cam: Cam,
+    cam: Cam | ConjugateCam,
     folder: Path | str,
     kinds: FileKind | Collection[FileKind] = ("csv", "dxf"),
     *,
@@ -39,7 +40,7 @@ def write_profile(
 
     Parameters
     ----------
-    cam : any cam; what its roller undercuts is left out of the profile
+    cam : any cam, what its roller undercuts is left out of the profile; or the second cam of a conjugate pair
     folder : is made if it is not there; other files in it stay
     kinds : of these, several or one: "csv" (720 points with cam angle and polar coordinates), "dxf" (one spline),
         "xyz" (a closed curve through the same points), "step" (a solid with bore and keyway), "gcode" (a program)
@@ -72,7 +73,7 @@ def write_profile(
     step profile.step True
     gcode profile.ngc True
     """
-    check_kind("cam", cam, Cam)
+    check_kind("cam", cam, (Cam, ConjugateCam))
     wanted = [kinds] if isinstance(kinds, str) else list(kinds)
     for kind in wanted:
         if kind not in FILE_KINDS:
@@ -104,12 +105,14 @@ def _part_table(part: dict[str, Any]) -> PartTable:
     return PartTable(**part)
 
 
-def _spline(cam: Cam, table: PartTable, side: Literal["inner", "outer"] = "inner") -> ProfileSpline:
+def _spline(cam: Cam | ConjugateCam, table: PartTable, side: Literal["inner", "outer"] = "inner") -> ProfileSpline:
     degree, count = table.spline_degree, table.spline_control_points
     return profile_spline(cam, degree=degree, control_points=count, trimmed=True, side=side).turned(cam.table_turn)
 
 
-def _texts(cam: Cam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]) -> dict[str, str]:
+def _texts(
+    cam: Cam | ConjugateCam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]
+) -> dict[str, str]:
     """The contents of the wanted files by which a machine cuts the cam, by their kinds."""
     texts: dict[str, str] = {}
     if not wanted & cutting_files.FILE_NAMES.keys():

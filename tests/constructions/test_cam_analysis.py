@@ -21,6 +21,7 @@ from graphcam.constructions.stem_analysis import stem_analysis
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.laid_outline import laid_outline
+from graphcam.report.note import comparison_file
 from graphcam.tasks.task_file import task_from
 
 FULL_TURN = 2 * math.pi
@@ -200,3 +201,11 @@ def test_the_analysis_comes_first_and_starts_from_nothing_but_the_outline():
     alone = replace(chain, done={})
     _ = alone["differentiation"]
     assert set(alone.lying) == {"analysis", "differentiation"}
+
+
+@over_all("name", TASKS)
+def test_drawn_and_exact_are_compared_in_words(name):
+    """Of what every follower has measured, and of no pressure angle where a face has none."""
+    said = comparison_file(gc.solve(task_from(TASKS[name])))
+    assert ("measured maximum α" in said) == (name != "flat")
+    assert "measured lift" in said

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -254,6 +255,82 @@ def profile_radius(given: Givens, phi: float, s: float, v: float) -> float:
     return abs(z + given.roller * inside)
 
 
+# --- a given cam -----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class GivenCam:
+    """A tangent cam as the text gives it, with the scale of its drawing [mm/mm], and what a student does with it.
+
+    measured_from : the radius of the circle from which displacements are measured, where it is not the prime circle
+    rolls : whether the roller is drawn;  numbered : the sense by which positions are numbered
+    held_at : the offset with which the follower is drawn;  v_factor, a_factor : by which the scales are off
+    """
+
+    base: float
+    lift: float
+    ascent: float
+    roller: float
+    offset: float
+    sense: int
+    scale: float
+    poles: tuple[float, float]
+    held_at: float
+    numbered: int
+    measured_from: float = math.nan
+    rolls: bool = True
+    v_factor: float = 1.0
+    a_factor: float = 1.0
+    drawn_poles: tuple[float, float] | None = None
+
+
+@cache
+def touching(given: GivenCam, phi: float) -> tuple[complex, float]:
+    """Where the roller's centre, or an edge, stands on the cam that is held still, and the direction of the normal.
+
+    The cam is the hull of its base circle and its nose, so a place lies as far outside as beyond the worst tangent.
+    """
+    top = given.base + given.lift
+    nose = (given.base - top * math.cos(given.ascent)) / (1 - math.cos(given.ascent))
+    # At phi = 0 the roller touches where the flank begins.
+    r0 = given.base + given.roller
+    apex = math.atan2(math.sqrt(r0**2 - given.offset**2), given.offset) - given.sense * given.ascent
+    theta = np.linspace(-np.pi, np.pi, 7201)
+    reach = np.maximum(given.base, nose + (top - nose) * np.cos(theta - apex)) + given.roller * given.rolls
+    turn = np.exp(-1j * given.numbered * phi)
+    low, high = 0.0, 2 * (top + given.roller)
+    for _ in range(40):
+        y = (low + high) / 2
+        z = complex((given.held_at + 1j * y) * turn)
+        beyond = (z * np.exp(-1j * theta)).real - reach
+        low, high = (y, high) if beyond.max() < 0 else (low, y)
+    return z, float(theta[int(beyond.argmax())])
+
+
+def analysed(given: GivenCam, asked: Asked, mistake: str) -> float:
+    """Readings of a given cam: by positions of its follower, and by chords over equal parts of the turn."""
+    phi = np.arange(PARTS_OF_TURN) * 2 * math.pi / PARTS_OF_TURN
+    places = [touching(given, float(each)) for each in phi]
+    z = np.array([place for place, _ in places])
+    r0 = given.base + given.roller * given.rolls
+    circle = r0 if math.isnan(given.measured_from) else given.measured_from
+    s = (z * np.exp(1j * given.numbered * phi)).imag - math.sqrt(circle**2 - given.held_at**2)
+    if mistake == "from-the-centre":
+        s = np.abs(z)
+    paper, mu_s = s / given.scale, given.scale
+    if mistake == "scale-forgotten: analysis.s":
+        mu_s = 1.0
+    k = int(asked.station or 1)
+    if asked.construction == "analysis" and asked.reading == "s":
+        return float(paper[k]) * (1.0 if asked.of == "paper" else mu_s)
+    if asked.construction == "analysis":
+        motion = math.pi / 2 - given.numbered * float(phi[k])
+        alpha = given.numbered * ((places[k][1] - motion + math.pi) % (2 * math.pi) - math.pi)
+        alpha = math.copysign(math.pi / 2, alpha) - alpha if mistake == "angle-of-the-tangent" else alpha
+        return math.degrees(alpha) * (-1 if mistake == "angle-sign" else 1)
+    return chords(np.append(paper, paper[0]), mu_s, given, asked, mistake)
+
+
 # --- mistakes --------------------------------------------------------------------------------------------------------
 
 
@@ -288,6 +365,27 @@ def with_mistake(given: Givens, name: str) -> Givens:
     return changes[what]() if what in changes else given
 
 
+def with_cam_mistake(given: GivenCam, name: str) -> GivenCam:
+    """A given cam as a student with a mistake takes it."""
+    r0, e = given.base + given.roller, given.offset
+    changes: Mapping[str, Mapping[str, object]] = {
+        "roller-forgotten": {"rolls": False},
+        "base-circle": {"measured_from": given.base},
+        "roller-added": {"measured_from": r0 + given.roller},
+        "prime-diameter": {"measured_from": r0 / 2},
+        "offset-circle": {"measured_from": abs(e)},
+        "offset-subtracted": {"measured_from": math.hypot(r0 - abs(e), e)},
+        "numbering-sense": {"numbered": -given.sense},
+        "rotation-sense": {"numbered": -given.sense},
+        "offset-sign": {"held_at": -e},
+        "offset-forgotten": {"held_at": 0.0},
+        "degree-for-radian: differentiation": {"v_factor": MU_PHI, "a_factor": MU_PHI},
+        "pole-forgotten: differentiation": {"v_factor": given.poles[1], "a_factor": given.poles[0]},
+        "poles-swapped: differentiation": {"drawn_poles": given.poles[::-1]},
+    }
+    return replace(given, **changes.get(name, {}))  # type: ignore[arg-type]
+
+
 @dataclass(frozen=True)
 class Asked:
     """One answer, as an exercise asks it."""
@@ -307,8 +405,10 @@ def _concerns(mistake: str, asked: Asked) -> bool:
     return mistake != "offset-circle" or asked.construction not in ("pressure_angle", "minimum_radius")
 
 
-def answer(given: Givens, asked: Asked, mistake: str = "") -> float:
+def answer(given: Givens | GivenCam, asked: Asked, mistake: str = "") -> float:
     """What a student answers who draws without errors, right or with one mistake."""
+    if isinstance(given, GivenCam):
+        return analysed(with_cam_mistake(given, mistake), asked, mistake)
     if given.rule:
         given = replace(given, roller=given.rule * sharpest(given))
     given = with_mistake(given, mistake) if _concerns(mistake, asked) else given
@@ -364,7 +464,11 @@ def differentiated(given: Givens, asked: Asked, mistake: str) -> float:
     phi, s, _ = exact(given)
     mu_s = diagrams(given).mu_s
     ends = np.arange(PARTS_OF_TURN + 1) * 2 * math.pi / PARTS_OF_TURN
-    plotted = np.interp(ends, phi, s, right=0.0) / mu_s
+    return chords(np.interp(ends, phi, s, right=0.0) / mu_s, mu_s, given, asked, mistake)
+
+
+def chords(plotted: Array, mu_s: float, given: Givens | GivenCam, asked: Asked, mistake: str) -> float:
+    """Readings of the differentiation of a displacement that is plotted at the ends of all parts of the turn."""
     rise, run = np.diff(plotted), 2 * math.pi / PARTS_OF_TURN / MU_PHI
     second, first = given.poles
     v = (second if given.drawn_poles else first) * rise / run
@@ -372,7 +476,7 @@ def differentiated(given: Givens, asked: Asked, mistake: str) -> float:
         v = first * run / rise[: int(asked.station or 1)]
     if mistake == "chord-at-its-end":
         v = (v + np.roll(v, 1)) / 2
-    k = int(asked.station or 1) - 1 + given.late
+    k = int(asked.station or 1) - 1 + (mistake == "station-too-late: differentiation")
     mu_v = mu_s / (MU_PHI * first) * given.v_factor
     if mistake == "scale-forgotten: differentiation.v":
         mu_v = 1.0

@@ -18,7 +18,13 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.acts import Floats, Kind
 from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.slips import SLIPS
-from graphcam.exercises.definition.drawn_answers import drawn_answer, is_length, rescaled, with_own_answers
+from graphcam.exercises.definition.drawn_answers import (
+    drawn_answer,
+    is_length,
+    rescaled,
+    with_own_answers,
+    with_reading,
+)
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.key.answer_scatter import curve_of
 
@@ -85,6 +91,11 @@ def on_printed_axis(right: Chain, hands: OtherStudents, printed: float) -> Chain
     board = replace(right.board, mu_phi=replace(mu_phi, per_mm=mu_phi.per_mm / printed))
     chain = Chain(board, hands)
     drawn = chain.integration
+    if "analysis" in chain.names:
+        # The outline of a given cam is printed smaller too.
+        shown = chain.analysis.readings["s"].paper
+        chain = chain.continued_from(with_reading(chain.analysis, "s", printed * shown))
+        drawn = chain.differentiation
     for name in ("v", "a"):
         drawn = rescaled(drawn, name, np.asarray(drawn.readings[name].scale) / printed)
     return chain.continued_from(drawn)

@@ -6,7 +6,7 @@ import math
 from functools import cache
 
 import pytest
-from draughtsman import Asked, Givens, answer
+from draughtsman import Asked, GivenCam, Givens, answer
 from issued_variants import issued
 
 from graphcam.errors import GraphcamError
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.slow
 STUDENTS = ("Anna", "Boris")
 
 
-def givens(exercise: Exercise, answer_key: AnswerKey) -> Givens:
+def givens(exercise: Exercise, answer_key: AnswerKey) -> Givens | GivenCam:
     """The task as the student reads it, out of its parameters."""
     said = answer_key.parameters
     drawing = exercise.task["drawing"]
@@ -36,6 +36,12 @@ def givens(exercise: Exercise, answer_key: AnswerKey) -> Givens:
     def number(name: str, otherwise: float = 0.0) -> float:
         return float(said.get(name, otherwise))
 
+    sense = -1 if said.get("rotation") == "cw" else 1
+    poles = value(drawing["poles"][0]), value(drawing["poles"][1])
+    if "base" in said:
+        offset, (shown, real) = number("offset"), map(float, str(said["scale"]).split(":"))
+        sizes = number("base"), number("lift"), math.radians(number("ascent")), number("roller"), offset
+        return GivenCam(*sizes, sense, real / shown, poles, held_at=offset, numbered=sense)
     up, down = math.radians(number("limit_up")), math.radians(number("limit_down"))
     return Givens(
         lift=math.radians(number("lift")) if "arm" in said else number("lift"),
@@ -44,8 +50,8 @@ def givens(exercise: Exercise, answer_key: AnswerKey) -> Givens:
         dwell=math.radians(number("dwell")),
         divisions=drawing["divisions"],
         ordinate=value(drawing["ordinate"]),
-        poles=(value(drawing["poles"][0]), value(drawing["poles"][1])),
-        sense=-1 if said.get("rotation") == "cw" else 1,
+        poles=poles,
+        sense=sense,
         offset=number("offset"),
         prime=number("r0", 60.0),
         roller=number("roller", 10.0),

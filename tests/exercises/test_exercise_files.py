@@ -22,7 +22,7 @@ TITLE = (
 )
 TOPICS = {
     "acceleration-and-scales", "integration", "differentiation", "pressure-angle", "least-radius",
-    "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "whole-cam",
+    "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "given-cam", "whole-cam",
 }  # fmt: skip
 
 PLACE = re.compile(r"\{[a-z_0-9]+\}")
@@ -94,6 +94,23 @@ def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
         load_exercise(path)
     assert "\n" not in str(caught.value)
     assert str(caught.value).startswith(str(path))
+
+
+@pytest.mark.parametrize(
+    ("name", "station", "message"),
+    [
+        ("given-cam", '"6"', "station is '24', but must be from 0 to 23"),
+        ("differentiation", '"4"', "station is '25', but must be from 1 to 24"),
+    ],
+)
+def test_a_place_beyond_the_turn_is_told(tmp_path, name, station, message):
+    """Positions of a given cam are numbered from 0, chords from 1."""
+    text, beyond = exercise_path(name).read_text(encoding="utf-8"), message.split("'")[1]
+    (tmp_path / "mine.toml").write_text(
+        text.replace(f"station = {station}", f'station = "{beyond}"', 1), encoding="utf-8"
+    )
+    with pytest.raises(TaskError, match=message):
+        load_exercise(tmp_path / "mine.toml")
 
 
 @pytest.mark.slow

@@ -20,8 +20,8 @@ ANNA = Student("s1", "Anna")
 IN_THE_TEXT = {"law_up", "law_down", "limit_up", "limit_down", "factor", "roller", "pole", "pole_1", "pole_2"}
 IN_THE_TEXT |= {"pole_s", "pole_v"}
 """Parameters on which answers depend, and which only the text of the task names."""
-GIVEN_AS_DRAWN = {"integration": {"law_up", "law_down"}}
-"""Of which an exercise draws something: the acceleration that is integrated."""
+GIVEN_AS_DRAWN = {"integration": {"law_up", "law_down"}, "given-cam": {"roller"}}
+"""Of which an exercise draws something: the acceleration that is integrated; the cam, turned to where the roller is."""
 LIFT_IN_THE_TEXT = {"acceleration-and-scales", "integration", "least-radius", "least-radius-offset", "pressure-angle"}
 """Exercises without a profile or a curve, whose scale would go with the lift."""
 

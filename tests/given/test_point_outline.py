@@ -170,6 +170,15 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
         ("[outline]\nfile = 'cam.csv'\ntolerance = -1", "outline.tolerance is -1"),
         ("[outline]\nfile = 'motion.csv'", "outline.file is the table of a motion"),
         (
+            "[arcs]\nbase_radius = 30\nlift = 9\nD = [1, 2]",
+            "arcs is with base_radius and D, but must be given by radii or",
+        ),
+        (
+            "[arcs]\nbase_radius = 30\nlift = 9\n[motion]\nphases = []",
+            "motion is a table.*left out where the cam is given",
+        ),
+        ("[outline]\nfile = 'beside.csv'", r"beside\.csv: outline is beside the cam centre"),
+        (
             "cam.prime_radius = 40\n[outline]\nfile = 'cam.csv'",
             "cam.prime_radius is 40.*left out where the cam is given",
         ),
@@ -178,9 +187,18 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
 def test_files_that_are_no_outline_are_told(tmp_path, task, said):
     text = "".join(f"{z.real},{z.imag}\n" for z in DISC)
     (tmp_path / "cam.csv").write_text(f"x,y\n{text}", encoding="utf-8")
+    (tmp_path / "beside.csv").write_text("x,y\n" + "".join(f"{z.real + 90},{z.imag}\n" for z in DISC), encoding="utf-8")
     rows = "".join(f"{x:.0f},{5 - 5 * math.cos(math.radians(x))}\n" for x in range(0, 360, 5))
     (tmp_path / "motion.csv").write_text(f"phi_deg,s_mm\n{rows}", encoding="utf-8")
     follower = "[follower]\nkind = 'translating'\noffset = 0\nroller_radius = 10\n"
     (tmp_path / "cam.toml").write_text(f"{task}\n{follower}", encoding="utf-8")
     with pytest.raises(gc.GraphcamError, match=said):
+        gc.load_task(tmp_path / "cam.toml")
+
+
+def test_an_arm_that_does_not_reach_a_cam_of_points_is_told(tmp_path):
+    (tmp_path / "cam.csv").write_text("x,y\n" + "".join(f"{z.real},{z.imag}\n" for z in DISC), encoding="utf-8")
+    follower = "[follower]\nkind = 'oscillating'\narm = 30\ndistance = 200\nroller_radius = 10\n"
+    (tmp_path / "cam.toml").write_text(f"[outline]\nfile = 'cam.csv'\n{follower}", encoding="utf-8")
+    with pytest.raises(gc.GraphcamError, match=r"base radius is \d.*, but must be between 170 and 230 mm"):
         gc.load_task(tmp_path / "cam.toml")

@@ -137,3 +137,22 @@ def test_a_groove_is_written_as_two_curves(tmp_path):
     assert np.allclose(nearest(drawn, dense), 0, atol=2e-3)
     with pytest.raises(gc.DesignError, match="kinds is 'step', but must be of csv, dxf, xyz, for a groove"):
         gc.write_profile(cam, tmp_path, "step", groove=True)
+
+
+@over_all(("made", "at"), [(stem, 8 - 62j), (rocker, 12 - 60j)])
+def test_the_second_cam_is_written_as_the_first_is(tmp_path, made, at):
+    """The spline within the deviation that it tells, the cutter's way a cutter's radius outside of the profile."""
+    second = gc.ConjugateCam(made(), (at.real, at.imag), 11.0)
+    files = gc.write_profile(second, tmp_path, ["csv", "dxf", "step", "gcode"], cutter_radius=8, profile_tolerance=0.01)
+    with files["csv"].open(encoding="utf-8") as file:
+        phi, x, y = np.array([[float(row[key]) for key in ("phi_deg", "x", "y")] for row in csv.DictReader(file)]).T
+    assert np.allclose(np.column_stack([x, y]), second.profile(np.radians(phi)), atol=1e-7)
+    (spline,) = ezdxf.readfile(files["dxf"]).modelspace().query("SPLINE")
+    drawn = np.array([(point.x, point.y) for point in spline.construction_tool().approximate(400)])
+    dense = second.profile(np.linspace(0, math.tau, 400_001)) @ [1, 1j]
+    assert gc.profile_spline(second).deviation < 1e-3
+    assert np.allclose(nearest(drawn, dense), 0, atol=2e-3)
+    ends = [line.split() for line in files["gcode"].read_text().splitlines() if line.startswith(("G2", "G3"))]
+    way = np.array([[float(word[1:]) for word in words[1:3]] for words in ends])
+    assert np.allclose(nearest(way[:-1], dense), 8, atol=0.01)  # but the last, which leads off
+    assert files["step"].stat().st_size > 1000

@@ -123,8 +123,28 @@ def test_the_layer_chooses_the_loop(tmp_path):
     assert loaded(tmp_path, bored, 'layer = "profile"').motion().lift == pytest.approx(14, abs=0.1)
 
 
+def test_dust_beside_the_outline_is_passed_over(tmp_path):
+    """Programs leave arcs without a radius, and lines shorter than the gap that closes a loop."""
+
+    def dusty(document):
+        disc_spline_on(document.modelspace())
+        document.modelspace().add_arc((40, 0), 0, 0, 0)
+        document.modelspace().add_line((50, 0), (50.01, 0))
+
+    assert loaded(tmp_path, dusty).motion().lift == pytest.approx(10, abs=0.1)
+
+
+def square(document):
+    document.modelspace().add_lwpolyline([(30, 0), (0, 30), (-30, 0), (0, -30)], close=True)
+
+
 def half(document):
     document.modelspace().add_arc((0, 0), 30, 0, 180)
+
+
+def nearly_closed(document):
+    document.modelspace().add_arc((0, 5), 30, 0, 180)
+    document.modelspace().add_arc((0, 5), 30, 180.2, 359.9)
 
 
 @over_all(
@@ -138,7 +158,14 @@ def half(document):
         (bored, 'layer = "cam"', "layer is 'cam', but must be one of .*bore, profile"),
         (bored, "layer = 3", "outline.layer is 3"),
         (half, "", r"open on the layer 0, by 60 mm at .*join its ends"),
+        (nearly_closed, "", r"open on the layer 0, by 0\.\d+ mm at .*join its ends"),
         (lambda document: None, "", "without a curve"),
+        (lambda document: document.modelspace().add_line((9, 0), (9, 0.01)), "", r"open on the layer 0, by 0\.01 mm"),
+        (
+            square,
+            "",
+            r"bent by 90° in a corner at .* smooth all around; round it by an arc",
+        ),
         (lambda document: document.modelspace().add_circle((90, 0), 8), "", "beside the cam centre"),
         (lambda document: document.modelspace().add_circle((0, 0), 8), "", "round about the cam centre"),
         (lambda document: document.modelspace().add_circle((0, 1e6), 8), "", "check the unit"),
@@ -154,5 +181,5 @@ def test_files_that_are_no_dxf_are_told(tmp_path):
     with pytest.raises(gc.GraphcamError, match=r"there is no file cam\.dxf"):
         gc.load_task(tmp_path / "cam.toml")
     (tmp_path / "cam.dxf").write_bytes(b"nothing")
-    with pytest.raises(gc.GraphcamError, match="not a DXF file"):
+    with pytest.raises(gc.GraphcamError, match=r"is not to be read, .* one closed loop; cam\.dxf is not a DXF file"):
         gc.load_task(tmp_path / "cam.toml")

@@ -13,6 +13,8 @@ from graphcam.drafting.ink import Step, View
 from graphcam.drafting.marks import Label, Line, Mark, Role, Segments
 from graphcam.exercises.definition.exercise import Diagram, Exercise
 from graphcam.exercises.definition.marked_formats import format_of
+from graphcam.given.laid_outline import GivenCamMotion
+from graphcam.given.motion import FULL_TURN
 
 AXES_ROOM: Mapping[Diagram, tuple[str, View, float, float]] = {
     "acceleration": ("a", ACCELERATION, -80.0, 80.0),
@@ -53,13 +55,21 @@ def room_of(exercise: Exercise, name: Diagram) -> tuple[float, float]:
 def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     """The axes to draw a diagram on, and left of them room for the pole."""
     (symbol, view, *_), (low, high) = AXES_ROOM[name], reach_of(exercise, name)
-    # Under the measured diagram, which has a cam angle of its own.
-    view = DIAGRAM_VIEWS[symbol] if "differentiation" in exercise.sheet else view
-    named = ordinate_title(symbol, chain.board.follower.unit)
-    board = chain.board
-    axes = phi_axes(board.motion, board.stations, board.mu_phi, np.array([low, high]), named)
+    named, board, heights = ordinate_title(symbol, chain.board.follower.unit), chain.board, np.array([low, high])
+    axes = phi_axes(board.motion, board.stations, board.mu_phi, heights, named)
+    if _is_differentiated(exercise):
+        # With lines at quarters of the turn: where the phases of a given cam end is not to be seen.
+        view, turn = DIAGRAM_VIEWS[symbol], FULL_TURN / board.mu_phi.per_mm
+        quarters = turn * np.arange(1, 5) / 4
+        lines = Segments(quarters + low * UP, quarters + high * UP, Role.CONSTRUCTION)
+        axes = (*axes_over_phi(turn, board.mu_phi, heights, named), lines)
     pole = () if name == "displacement" else (Line(np.array([-POLE_ROOM, 0]) + 0j, Role.CONSTRUCTION),)
     return Step(view.title, (), view, (*axes, *pole))
+
+
+def _is_differentiated(exercise: Exercise) -> bool:
+    """Whether the diagrams are those of a differentiation."""
+    return any(asked.construction == "differentiation" for asked in exercise.answers)
 
 
 def marked_axes(exercise: Exercise, chain: Chain, name: Diagram) -> tuple[View, tuple[Mark, ...], float]:
@@ -87,12 +97,14 @@ def finds_room(exercise: Exercise, chain: Chain) -> bool:
     >>> [finds_room(exercise, board_chain(task)) for task in tasks]
     [True, False]
     """
-    derived = any(asked.construction == "differentiation" for asked in exercise.answers)
+    derived = _is_differentiated(exercise)
     shown: list[Diagram] = [
         *exercise.axes,
         *(GIVEN_DIAGRAMS[name] for name in exercise.sheet if name in GIVEN_DIAGRAMS),
     ]
     for name in shown:
+        if name == "displacement" and isinstance(chain.board.motion, GivenCamMotion):
+            continue  # carried over with the dividers, as often as it finds room
         (low, high), clear = reach_of(exercise, name), CURVE_CLEARANCE if exercise.paper else 0.0
         drawn = chain.differentiation if derived and name != "displacement" else chain.integration
         ordinates = drawn.readings[GREATEST_READINGS[name]].paper

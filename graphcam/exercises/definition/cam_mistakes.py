@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import say
 from graphcam.errors import DesignError
 from graphcam.exercises.definition.catalogue import catalogued
-from graphcam.exercises.definition.drawn_answers import redrawn, rescaled, with_reading
+from graphcam.exercises.definition.drawn_answers import construction_of, redrawn, rescaled, with_reading
 from graphcam.given.follower import Limits, Rotation, sense
 
 
@@ -96,6 +97,8 @@ def prime_diameter(chain: Chain) -> Chain:
 
 def _about_circle(chain: Chain, radius: float) -> Chain:
     """Pressure angle and inversion drawn about a circle of another radius [mm]."""
+    if "analysis" in chain.names:
+        return _analysed(chain, prime_radius=radius)
     # The scale of the profile stays what it is, so the task's own prime radius does not change.
     board = chain.board
     measured = board.follower.pressure_angle(chain.integration, board.rotation, radius, chain.place, chain.pencil)
@@ -107,6 +110,47 @@ def offset_circle(chain: Chain) -> Chain:
     """The displacements laid off from the points where the tangents touch the circle e."""
     # A hair more than the circle e itself, which a tangent meets in one point or, by rounding, in none.
     return _inverted(chain, abs(chain.place) * (1 + 1e-9), chain.board.rotation)
+
+
+@catalogued(
+    say(
+        "You seem to have measured at the outline, as under a knife edge: what moves is the roller's centre, which "
+        "runs on the pitch curve."
+    )
+)
+def roller_forgotten(chain: Chain) -> Chain:
+    """The outline of a given cam taken for the pitch curve, and its base circle for the prime circle."""
+    givens = construction_of(chain, "analysis").givens
+    return _analysed(chain, prime_radius=givens.prime_radius - givens.roller_radius, roller_radius=0.0)
+
+
+@catalogued(
+    say("You seem to have measured the displacements from the cam centre: they are counted from the prime circle.")
+)
+def from_the_centre(chain: Chain) -> Chain:
+    """The distance of the roller's centre from the cam centre taken for the displacement."""
+    drawn = construction_of(chain, "analysis")
+    return chain.continued_from(with_reading(drawn, "s", np.abs(drawn.points["places"])))
+
+
+@catalogued(
+    say(
+        "You seem to have measured the angle of the tangent: the pressure angle lies between the normal of the pitch "
+        "curve and the line of motion."
+    )
+)
+def angle_of_the_tangent(chain: Chain) -> Chain:
+    """The complement of every pressure angle at the contact, on its own side."""
+    drawn = construction_of(chain, "analysis")
+    alpha = drawn.readings["alpha"].paper
+    return chain.continued_from(with_reading(drawn, "alpha", np.copysign(math.pi / 2, alpha) - alpha))
+
+
+@catalogued(say("You seem to have read the pressure angles with the wrong sign: on a rise they are mostly positive."))
+def angle_sign(chain: Chain) -> Chain:
+    """Every pressure angle at the contact on the other side."""
+    drawn = construction_of(chain, "analysis")
+    return chain.continued_from(with_reading(drawn, "alpha", -drawn.readings["alpha"].paper))
 
 
 @catalogued(
@@ -201,9 +245,17 @@ def _opposite_sense(rotation: Rotation) -> Rotation:
 
 
 def _inverted(chain: Chain, prime_radius: float, rotation: Rotation) -> Chain:
-    """The inversion alone drawn otherwise."""
+    """The inversion alone drawn otherwise, or of a given cam the analysis."""
+    if "analysis" in chain.names:
+        return _analysed(chain, prime_radius=prime_radius, rotation=rotation)
     follower = chain.board.follower
     inverted = follower.inversion(
         chain.integration, rotation, prime_radius, chain.place, chain.profile_scale, chain.pencil
     )
     return chain.continued_from(inverted)
+
+
+def _analysed(chain: Chain, **changes: Any) -> Chain:
+    """The analysis of a given cam alone drawn otherwise."""
+    givens = replace(chain.analysis.givens, **changes)
+    return chain.continued_from(chain.board.follower.analysis(givens, chain.pencil))

@@ -12,6 +12,7 @@ from graphcam.drafting.ink import Construction, say
 from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.exercises.definition.catalogue import DIAGRAM_ARGUMENT, LAW_ARGUMENT, READING_ARGUMENT, Change, catalogued
 from graphcam.exercises.definition.drawn_answers import construction_of, redrawn, rescaled, with_ordinates, with_reading
+from graphcam.given.laid_outline import GivenCamMotion
 from graphcam.given.laws import LAWS, canonical_law
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 
@@ -66,6 +67,8 @@ def _two_phases(chain: Chain, change: Callable[[Moving, Moving], Moving]) -> Cha
 
 
 def _with_phases(chain: Chain, phases: list[Phase]) -> Chain:
+    if isinstance(chain.board.motion, GivenCamMotion):
+        raise DesignError("motion", say("by a given cam"), say("by phases where one is to be mistaken"))
     return redrawn(chain, replace(chain.board, motion=Motion(phases)))
 
 

@@ -24,9 +24,10 @@ T = TypeVar("T")
 PRIME_SIGNS = "'’′"
 """How a second or third moving phase is marked on a keyboard and in print."""
 PART_READINGS = ("middles",)
-PHASE_READINGS = ("greatest", "closing_v")
-INTERVAL_READINGS = ("differentiation",)
-"""Readings and constructions whose places are numbered from 1: parts, moving phases, intervals."""
+PHASE_READINGS = ("greatest", "closing_v", "phase_angles")
+"""Readings whose places are numbered from 1: parts, moving phases, phases."""
+FIRST_OF_TURN = {"differentiation": 1, "analysis": 0}
+"""The number of the first place of constructions that divide the whole turn: of a chord, of a position."""
 
 
 def board_chain(task: Task, pencil: Pencil | None = None) -> Chain:
@@ -109,8 +110,14 @@ def place_of(chain: Chain, asked: AskedAnswer) -> int:
     if name is None:
         raise DesignError("station", asked.station, say("a number, with a prime for each phase after the first"))
     number, phase = int(name[1]), len(name[2])
-    if asked.construction in INTERVAL_READINGS or asked.reading in PHASE_READINGS:
-        return number - 1
+    if asked.reading in PHASE_READINGS or asked.construction in FIRST_OF_TURN:
+        first = 1 if asked.reading in PHASE_READINGS else FIRST_OF_TURN[asked.construction]
+        drawn = construction_of(chain, asked.construction)
+        there = drawn.points[asked.points] if asked.points else drawn.readings[asked.reading].paper
+        if not 0 <= number - first < there.shape[-1]:
+            limit = say("from {least} to {most}", least=first, most=first + there.shape[-1] - 1)
+            raise DesignError("station", asked.station, limit)
+        return number - first
     if phase >= len(stations.phases):
         limit = say("in one of {phases} moving phases", phases=len(stations.phases))
         raise DesignError("station", asked.station, limit)
