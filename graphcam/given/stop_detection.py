@@ -30,6 +30,8 @@ FLAT_PENALTIES, LONG_REST_SHARE = np.array([0.0, 8.0, 14.0]), 0.2
 """... to which a flat turning adds this by its powers, beside a rest over such a part of the rows or more."""
 ROW_SNAP = 4.0
 """A rest ends at a row if that adds no more than this to the sum of squares [variances of the noise]."""
+MAX_TABLE = 2**16
+"""Rows times places of which fewer are looked at at once, so that they are near at hand in the machine's memory."""
 NEGLIGIBLE_ANGLE, SINGULAR_DETERMINANT = 1e-9, 1e-12
 """A way [rad] of less is none; a determinant of less than this beside its terms says that rows are missing."""
 
@@ -89,12 +91,16 @@ class StopRows:
     def leaving(self, side: int, places: Floats, since: Floats, powers: Floats) -> _Squares:
         """The least squares of rows from ``since`` on, for a motion that leaves at the places; backwards before 0."""
         x, y = (self.x, self.y) if side else (-self.x[::-1], self.y[::-1])
+        on_way = np.searchsorted(x, places.min(), side="right")
+        if places.size * (x.size - on_way) > MAX_TABLE:
+            order = np.argsort(places)
+            parts = (self.leaving(side, places[k], since[k], powers[k]) for k in np.array_split(order, 2))
+            return _Squares(*np.concatenate([*parts], axis=1)[:, np.argsort(order)])
         way = np.maximum(x[-1] - places, NEGLIGIBLE_ANGLE)
         # Rows before all places add nothing but to the sums of 1, y and y^2, which begin at few rows.
         begins, begin = np.unique(np.searchsorted(x, since), return_inverse=True)
         levels = np.stack([np.ones(x.size), y, y * y])
         ones = np.stack([ordered_sum(levels[:, k:]) for k in begins.tolist()], axis=1)[:, begin]
-        on_way = np.searchsorted(x, places.min(), side="right")
         z = np.maximum(x[on_way:, None] - places, 0.0) / way
         square = z * z
         first = square * np.choose(powers - END_POWERS[0], [1.0, z, square])
