@@ -33,7 +33,9 @@ LOADING_FACTOR = 1.6
 """How many times the loading of the libraries a whole run may take, and a second more."""
 START_COUNT = 3
 """Times that each program is started, the best of which counts: the first one compiles it."""
-PROGRAM = "import sys; from graphcam.cli import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"
+PROGRAM = (
+    "import sys; from graphcam.__main__ import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"
+)
 PX_PER_MM = 1.9
 """How large a view of the studio is shown."""
 SIZE_STEP = 1e-3
