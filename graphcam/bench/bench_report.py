@@ -12,7 +12,7 @@ from graphcam import __version__
 from graphcam.bench.bench_followers import BENCH_LAWS
 from graphcam.bench.convergence import BOUNDS_SECTION, CONVERGENCE, PARTS
 from graphcam.bench.exact_rows import EXACT_SECTION
-from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL_SECTION, bands
+from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL_ERRORS, PENCIL_SECTION
 from graphcam.bench.load_rows import LOADS_SECTION
 from graphcam.bench.measured_rows import MEASURED_SECTION
 from graphcam.bench.peers import PEERS
@@ -26,7 +26,16 @@ from graphcam.words import Words, say
 
 ROWS = (EXACT_SECTION, LOADS_SECTION, BOUNDS_SECTION, MEASURED_SECTION, WAITING_SECTION, STUDIO_SECTION, CURVE_SECTION)
 """The sections of measured figures and goals."""
-REPORT_SECTIONS: tuple[Section, ...] = (CONVERGENCE, PENCIL_SECTION, BUDGETS, METHODS, *ROWS, PEERS, DRAWING)
+REPORT_SECTIONS: tuple[Section, ...] = (
+    CONVERGENCE,
+    PENCIL_SECTION,
+    BUDGETS,
+    PENCIL_ERRORS,
+    METHODS,
+    *ROWS,
+    PEERS,
+    DRAWING,
+)
 """All tables, in order."""
 PARTS_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 """Parts, each time twice and then four times as many."""
@@ -36,11 +45,20 @@ ALL_SIZES = {
     "graphical": PARTS_BY_FOUR,
     "profile": PARTS_BY_FOUR[:7],
     "integrators": PARTS_BY_FOUR,
+    "differences": PARTS_BY_FOUR[2:],
     "half_planes": PARTS_BY_THREE,
     "optimiser": PARTS_BY_THREE[:4],
     "buffer": POLYGON_CORNERS,
 }
-REDUCED_SIZES = {"graphical": 8, "profile": 6, "integrators": 9, "half_planes": 6, "optimiser": 4, "buffer": 5}
+REDUCED_SIZES = {
+    "graphical": 8,
+    "profile": 6,
+    "integrators": 9,
+    "differences": 7,
+    "half_planes": 6,
+    "optimiser": 4,
+    "buffer": 5,
+}
 """How many of them are taken when it must be quick."""
 FULL_EFFORT = Effort(PARTS, BENCH_LAWS, 2000, PENCIL_PARTS, ALL_SIZES, 100_000, 1_000_000, 0.2, SWEPT)
 QUICK_EFFORT = replace(
@@ -71,12 +89,10 @@ class Report:
 
     pair : the time of one sine and one cosine on this machine [s], the unit of all times
     records : of each section, by its key
-    bands : between which relative errors nine hands in ten stay, by the question of the methods
     """
 
     pair: float
     records: Mapping[str, tuple[Any, ...]]
-    bands: Mapping[str, tuple[float, float]]
 
     def tables(self) -> Iterator[tuple[Section, list[str], list[list[str]]]]:
         """Every section of which something was measured, with the head and the rows of its table."""
@@ -109,7 +125,7 @@ class Report:
         stages = {d["construction"]: d["steps"] for d in drawing if d["readings"] is None}
         rest = {"drawing": [d for d in drawing if d["readings"] is not None], "rendering": stages}
         unit = "one sine and one cosine of 1e5, in the same run"
-        return _plain_data({"unit_of_time": unit, **told, "pencil_bands": self.bands, **rest})
+        return _plain_data({"unit_of_time": unit, **told, **rest})
 
 
 def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
@@ -118,7 +134,7 @@ def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
     for section in REPORT_SECTIONS:
         progress(section.title)
         records[section.key] = tuple(section.measured(effort))
-    return Report(pair, records, bands(effort.hands))
+    return Report(pair, records)
 
 
 def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], None] = ignore_progress) -> Report:
@@ -142,9 +158,11 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
         document = {"graphcam": __version__, **report.to_dict()}
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
         (folder / "bench.json").write_text(text + "\n", encoding="utf-8", newline="\n")
-        series, hands, methods = (report.records[each.key] for each in (CONVERGENCE, PENCIL_SECTION, METHODS))
+        series, hands, methods, pencils = (
+            report.records[each.key] for each in (CONVERGENCE, PENCIL_SECTION, METHODS, PENCIL_ERRORS)
+        )
         figures.save(figures.error_against_parts, folder / "bench-parts", series)
-        figures.save(figures.error_against_time, folder / "bench-time", methods, report.bands, report.pair)
+        figures.save(figures.error_against_time, folder / "bench-time", methods, pencils, report.pair)
         figures.save(figures.error_of_the_hand, folder / "bench-pencil", hands)
     return report
 

@@ -60,6 +60,22 @@ def integrated_error(motion: Motion, method: Integrator, n: int) -> float:
     return float(np.abs(off).max()) / motion.lift
 
 
+# --- derivatives by differences ---------------------------------------------------------------------------------------
+
+
+def pressure_angles(s: Floats, phi: Floats, s0: float, offset: float) -> Floats:
+    """The pressure angles [rad] of a translating follower, v by differences: their tangent is (v - e)/(s0 + s)."""
+    return np.arctan2(np.gradient(s, phi) - offset, s0 + s)
+
+
+def min_convex_radius(pitch: Floats, phi: Floats) -> float:
+    """The minimum radius of curvature of convex parts of points (n, 2) in order, both derivatives by differences."""
+    z = pitch @ [1, 1j]
+    z1 = np.gradient(z, phi)
+    bent = (z1.conj() * np.gradient(z1, phi)).imag / np.abs(z1) ** 3
+    return 1 / float(np.max(bent * np.sign(np.sum(bent))))
+
+
 # --- least radius ----------------------------------------------------------------------------------------------------
 
 

@@ -28,7 +28,7 @@ from graphcam.sweeps.sweep_quantities import QUANTITIES
 
 SMOOTH = ("cycloidal", "3-4-5")
 SECOND_ORDER = ("displacement", "velocity", "maximum acceleration", "pitch curve", "working profile")
-SIZES = dict.fromkeys(("graphical", "profile", "integrators"), (12, 24)) | {"buffer": (24, 96)}
+SIZES = dict.fromkeys(("graphical", "profile", "integrators", "differences"), (12, 24)) | {"buffer": (24, 96)}
 TINY = Effort(
     *((12, 24, 48), ("cycloidal", "rectangular"), 20, (6, 12, 24)),
     SIZES | dict.fromkeys(("half_planes", "optimiser"), (12, 36)),
@@ -245,7 +245,7 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     with (tmp_path / "report" / "bench.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     measured = {section.key for section in reports.ROWS} - {"workers"}  # which take too long when it must be quick
-    drawn = {"convergence", "pencil", "budget", "time", "peers", "readings", "steps", "rendering"}
+    drawn = {"convergence", "pencil", "pencil_errors", "budget", "time", "peers", "readings", "steps", "rendering"}
     assert {row["section"] for row in rows} == drawn | measured
     markdown = (tmp_path / "report" / "bench.md").read_text()
     tables = [line for line in markdown.splitlines() if line.startswith("|")]
@@ -307,8 +307,8 @@ def _check(document) -> None:
     graphical = [m for m in document["error_against_time"] if m["kind"] == "graphical"]
     assert (
         {m["question"] for m in graphical}
-        == {"displacement", "minimum prime radius", "profile"}
-        == set(document["pencil_bands"])
+        == set(drawn.questions())
+        == {p["question"] for p in document["pencil_errors"]}
     )
     for m in graphical:
         assert m["errors"][-1] < m["errors"][0]
