@@ -283,7 +283,8 @@ def _choose(writing: LabelText, paper: Occupancy) -> int:
         part = start + np.flatnonzero(writing.cost[start:end] < least)
         if part.size:
             cost = writing.cost[part] + _letters_cost(writing, part, paper) + _leader_cost(writing, part, paper)
-            cost += _barred_cost(writing, part)
+            if writing.barred.size:
+                cost += _barred_cost(writing, part)
             k = int(np.argmin(cost))
             if cost[k] < least:
                 best, least = int(part[k]), float(cost[k])
