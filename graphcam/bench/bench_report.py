@@ -26,16 +26,7 @@ from graphcam.words import Words, say
 
 ROWS = (EXACT_SECTION, LOADS_SECTION, BOUNDS_SECTION, MEASURED_SECTION, WAITING_SECTION, STUDIO_SECTION, CURVE_SECTION)
 """The sections of measured figures and goals."""
-REPORT_SECTIONS: tuple[Section, ...] = (
-    CONVERGENCE,
-    PENCIL_SECTION,
-    BUDGETS,
-    PENCIL_ERRORS,
-    METHODS,
-    *ROWS,
-    PEERS,
-    DRAWING,
-)
+REPORT_SECTIONS = (CONVERGENCE, PENCIL_SECTION, BUDGETS, PENCIL_ERRORS, METHODS, *ROWS, PEERS, DRAWING)
 """All tables, in order."""
 PARTS_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 """Parts, each time twice and then four times as many."""
@@ -45,20 +36,11 @@ ALL_SIZES = {
     "graphical": PARTS_BY_FOUR,
     "profile": PARTS_BY_FOUR[:7],
     "integrators": PARTS_BY_FOUR,
-    "differences": PARTS_BY_FOUR[2:],
     "half_planes": PARTS_BY_THREE,
     "optimiser": PARTS_BY_THREE[:4],
     "buffer": POLYGON_CORNERS,
 }
-REDUCED_SIZES = {
-    "graphical": 8,
-    "profile": 6,
-    "integrators": 9,
-    "differences": 7,
-    "half_planes": 6,
-    "optimiser": 4,
-    "buffer": 5,
-}
+REDUCED_SIZES = {"graphical": 8, "profile": 6, "integrators": 9, "half_planes": 6, "optimiser": 4, "buffer": 5}
 """How many of them are taken when it must be quick."""
 FULL_EFFORT = Effort(PARTS, BENCH_LAWS, 2000, PENCIL_PARTS, ALL_SIZES, 100_000, 1_000_000, 0.2, SWEPT)
 QUICK_EFFORT = replace(
@@ -158,9 +140,8 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
         document = {"graphcam": __version__, **report.to_dict()}
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
         (folder / "bench.json").write_text(text + "\n", encoding="utf-8", newline="\n")
-        series, hands, methods, pencils = (
-            report.records[each.key] for each in (CONVERGENCE, PENCIL_SECTION, METHODS, PENCIL_ERRORS)
-        )
+        shown = CONVERGENCE, PENCIL_SECTION, METHODS, PENCIL_ERRORS
+        series, hands, methods, pencils = (report.records[each.key] for each in shown)
         figures.save(figures.error_against_parts, folder / "bench-parts", series)
         figures.save(figures.error_against_time, folder / "bench-time", methods, pencils, report.pair)
         figures.save(figures.error_of_the_hand, folder / "bench-pencil", hands)

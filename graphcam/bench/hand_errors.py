@@ -105,11 +105,9 @@ def _texts_of_pencils(found: Sequence[PencilError], _: float) -> Iterator[list[s
 
 
 def _lines_of_pencil(p: PencilError) -> Iterator[Line]:
+    of = {"subject": "graphical", "quantity": p.question, "error_unit": "relative"}
     for kind, error in (("bias", p.bias), ("scatter", p.scatter)):
-        remark = f"{kind}, pencil {p.sigma_mm:g} mm"
-        yield {"subject": "graphical", "quantity": p.question, "n": 12, "error": error, "error_unit": "relative"} | {
-            "remark": remark
-        }
+        yield {**of, "error": error, "remark": f"{kind}, pencil {p.sigma_mm:g} mm"}
 
 
 PENCIL_ERRORS = Section(

@@ -4,20 +4,13 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from graphcam.bench import reference, rivals
 from graphcam.bench.bench_followers import ARM, LIFT, PERMITTED_ANGLE, BenchFollower
-from graphcam.bench.convergence import (
-    Question,
-    as_complex,
-    distance_from_profile,
-    error_of,
-    nearest_angles,
-    questions,
-)
+from graphcam.bench.convergence import Question, as_complex, distance_from_profile, error_of, nearest_angles, questions
 from graphcam.bench.rows import Effort, Line, Parts, Section
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -75,59 +68,42 @@ def _rivals(question: str, where: BenchFollower) -> Iterator[tuple[str, str, Wor
     """The usual alternatives to a question: name, kind, work, and relative error."""
     motion, cam = where.board.motion, where.cam
 
-    def beside(work: Callable[[int], float], exact: float) -> Callable[[int], float]:
-        """The error of what gives one length [mm]."""
-        return lambda n: abs(work(n) / exact - 1)
+    def beside(work: Callable[[int], Any], exact: Callable[[int], Any]) -> tuple[Work, Callable[[int], float]]:
+        """The work, and its maximum error, as a part of the maximum exact value."""
+        return work, lambda n: float(np.max(np.abs(np.subtract(work(n), exact(n)))) / np.max(np.abs(exact(n))))
 
     match question:
         case "displacement":
             for name, integrator in rivals.INTEGRATORS.items():
-                error = partial(rivals.integrated_error, motion, integrator)
-                yield name, "integrators", partial(rivals.integrated, motion, integrator), error
+                yield (
+                    name,
+                    "integrators",
+                    *beside(partial(rivals.integrated, motion, integrator), partial(rivals.rises, motion)),
+                )
         case "minimum prime radius" | "minimum prime radius, arm":
+            lines, inside = partial(rivals.translating_lines, motion, PERMITTED_ANGLE), INNER_POINT
             if question.endswith("arm"):
                 lines, inside = partial(rivals.arm_lines, motion, where.board.limits.rise, ARM), ARM_INNER_POINT
-            else:
-                lines, inside = partial(rivals.translating_lines, motion, PERMITTED_ANGLE), INNER_POINT
+            radius = where.exact_least_radius().prime_radius
             for name, kind, solve in (
                 ("HalfspaceIntersection", "half_planes", rivals.by_half_planes),
                 ("SLSQP", "optimiser", rivals.by_optimiser),
             ):
-                work = partial(_by_lines, solve, lines, inside)
-                yield name, kind, work, beside(work, where.exact_least_radius().prime_radius)
+                yield name, kind, *beside(lambda n, solve=solve: solve(lines(n), inside), lambda _: radius)
         case "pressure angle":
             e, s0 = cam.sigma * where.sizes.place, math.sqrt(where.sizes.prime_radius**2 - where.sizes.place**2)
-
-            def angles(n: int) -> Floats:
-                """The pressure angles at n stations [rad]."""
-                return rivals.pressure_angles(motion(turn(n))[0], turn(n), s0, e)
-
-            def off(n: int) -> float:
-                """The maximum error of the pressure angle."""
-                exact = cam.pressure_angle(turn(n))
-                return float(np.abs(angles(n) - exact).max() / np.abs(exact).max())
-
-            yield "np.gradient", "differences", angles, off
+            angles = beside(
+                lambda n: rivals.pressure_angles(motion(turn(n))[0], turn(n), s0, e),
+                lambda n: cam.pressure_angle(turn(n)),
+            )
+            yield "np.gradient", "integrators", *angles
         case "curvature":
-
-            def radius(n: int) -> float:
-                """The minimum radius of curvature of n points of the pitch curve [mm]."""
-                return rivals.min_convex_radius(cam.pitch_curve(turn(n)), turn(n))
-
-            yield "np.gradient", "differences", radius, beside(radius, cam.extremes().min_convex_radius[0])
+            radius = cam.extremes().min_convex_radius[0]
+            sharpest = beside(lambda n: rivals.min_convex_radius(cam.pitch_curve(turn(n)), turn(n)), lambda _: radius)
+            yield "np.gradient", "integrators", *sharpest
         case _:
             if rivals.optional("shapely"):
                 yield "shapely buffer", "buffer", partial(_buffered, where), partial(_buffered_error, where)
-
-
-def _by_lines(
-    solve: Callable[[rivals.Lines, rivals.Point], float],
-    lines: Callable[[int], rivals.Lines],
-    inside: rivals.Point,
-    n: int,
-) -> float:
-    """The minimum prime radius [mm] by the lines of n stations."""
-    return solve(lines(n), inside)
 
 
 def _exact(asked: Mapping[str, Question]) -> Iterator[tuple[str, Work, float | None]]:
