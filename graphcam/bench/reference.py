@@ -34,17 +34,14 @@ def law_values(law: str, u: Floats) -> Floats:
 
 def profile_points(where: BenchFollower, u: Floats) -> Floats:
     """(n, 2) the working profile at fractions of the rise of a translating follower, rounded from 50 digits."""
-    motion, sizes, lift = where.board.motion, where.sizes, printed_lift(where.law)
-    angle, turn = motion.phases[0].angle, mp.mpc(0, where.cam.sigma)
-    points: list[tuple[float, float]] = []
+    turn, points = mp.mpc(0, where.cam.sigma), list[tuple[float, float]]()
     with mp.workdps(REFERENCE_DIGITS):
-        e, r0 = mp.mpf(sizes.place), mp.mpf(sizes.prime_radius)
         for x in u.tolist():
-            z = mp.mpc(e, mp.sqrt(r0**2 - e**2) + LIFT * lift(mp.mpf(x)))
-            along = mp.mpc(0, LIFT * mp.diff(lift, mp.mpf(x)) / mp.mpf(angle)) - turn * z
-            profile = z - sizes.roller_radius * turn * along / abs(along)
+            z, v, _ = pitch_place(where, 0, mp.mpf(x))
+            along = mp.mpc(0, v) - turn * z
+            profile = z - where.sizes.roller_radius * turn * along / abs(along)
             # The double next to the angle at which the cam itself is asked.
-            profile *= mp.exp(-turn * mp.mpf(float(motion.angle_at(0, x))))
+            profile *= mp.exp(-turn * mp.mpf(float(where.board.motion.angle_at(0, x))))
             points.append((float(profile.real), float(profile.imag)))
     return np.array(points)
 

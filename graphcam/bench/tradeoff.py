@@ -75,11 +75,8 @@ def _rivals(question: str, where: BenchFollower) -> Iterator[tuple[str, str, Wor
     match question:
         case "displacement":
             for name, integrator in rivals.INTEGRATORS.items():
-                yield (
-                    name,
-                    "integrators",
-                    *beside(partial(rivals.integrated, motion, integrator), partial(rivals.rises, motion)),
-                )
+                s = beside(partial(rivals.integrated, motion, integrator), partial(rivals.rises, motion))
+                yield name, "integrators", *s
         case "minimum prime radius" | "minimum prime radius, arm":
             lines, inside = partial(rivals.translating_lines, motion, PERMITTED_ANGLE), INNER_POINT
             if question.endswith("arm"):
@@ -108,9 +105,7 @@ def _rivals(question: str, where: BenchFollower) -> Iterator[tuple[str, str, Wor
 
 def _exact(asked: Mapping[str, Question]) -> Iterator[tuple[str, Work, float | None]]:
     """Every question's exact answer, with its rounding [eps]."""
-    fixed, free, arm = (
-        asked[name].where for name in ("displacement", "minimum prime radius", "minimum prime radius, arm")
-    )
+    fixed, free, arm, *_ = (asks.where for asks in asked.values())
     cam, motion = fixed.cam, fixed.board.motion
     yield "displacement", lambda n: motion(turn(n)), reference.displacement_eps(fixed)
     yield "minimum prime radius", lambda _: free.exact_least_radius(), reference.least_radius_eps(free)
