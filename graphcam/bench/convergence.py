@@ -129,7 +129,7 @@ def errors_of(where: BenchFollower, construction: str, reading: str, chain: Chai
     return off / where.sizes.prime_radius
 
 
-class Question(NamedTuple):
+class BenchQuestion(NamedTuple):
     """What drawn, sampled and exact methods are asked, each in its own way.
 
     kind : by which the numbers of parts are chosen
@@ -141,7 +141,7 @@ class Question(NamedTuple):
     kind: str = "graphical"
 
 
-def questions() -> Mapping[str, Question]:
+def questions() -> Mapping[str, BenchQuestion]:
     """The questions by their names.
 
     >>> [*questions()]
@@ -149,12 +149,12 @@ def questions() -> Mapping[str, Question]:
     """
     fixed, free, arm = scene("translating", MAIN_LAW), free_scene(MAIN_LAW), scene("arm", MAIN_LAW)
     return {
-        "displacement": Question(fixed, "integration", "s"),
-        "minimum prime radius": Question(free, "minimum_radius", "prime_radius"),
-        "minimum prime radius, arm": Question(arm, "minimum_radius", "prime_radius"),
-        "pressure angle": Question(fixed, "pressure_angle", "alpha"),
-        "curvature": Question(fixed, "curvature", "rho", "profile"),
-        "profile": Question(fixed, "working_profile", "radius", "profile"),
+        "displacement": BenchQuestion(fixed, "integration", "s"),
+        "minimum prime radius": BenchQuestion(free, "minimum_radius", "prime_radius"),
+        "minimum prime radius, arm": BenchQuestion(arm, "minimum_radius", "prime_radius"),
+        "pressure angle": BenchQuestion(fixed, "pressure_angle", "alpha"),
+        "curvature": BenchQuestion(fixed, "curvature", "rho", "profile"),
+        "profile": BenchQuestion(fixed, "working_profile", "radius", "profile"),
     }
 
 

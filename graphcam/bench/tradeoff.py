@@ -10,7 +10,14 @@ import numpy as np
 
 from graphcam.bench import reference, rivals
 from graphcam.bench.bench_followers import ARM, LIFT, PERMITTED_ANGLE, BenchFollower
-from graphcam.bench.convergence import Question, as_complex, distance_from_profile, error_of, nearest_angles, questions
+from graphcam.bench.convergence import (
+    BenchQuestion,
+    as_complex,
+    distance_from_profile,
+    error_of,
+    nearest_angles,
+    questions,
+)
 from graphcam.bench.rows import Effort, Line, Parts, Section
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -56,11 +63,11 @@ def methods(effort: Effort) -> Iterator[Method]:
         yield _timed_method(effort, exact, work, lambda _, rounded=rounded: rounded)
 
 
-def _drawn(asks: Question, n: int) -> object:
+def _drawn(asks: BenchQuestion, n: int) -> object:
     return asks.where.chain(n)[asks.construction]
 
 
-def _drawn_error(asks: Question, n: int) -> float:
+def _drawn_error(asks: BenchQuestion, n: int) -> float:
     return error_of(asks.where, asks.construction, asks.reading, asks.where.chain(n))
 
 
@@ -103,7 +110,7 @@ def _rivals(question: str, where: BenchFollower) -> Iterator[tuple[str, str, Wor
                 yield "shapely buffer", "buffer", partial(_buffered, where), partial(_buffered_error, where)
 
 
-def _exact(asked: Mapping[str, Question]) -> Iterator[tuple[str, Work, float | None]]:
+def _exact(asked: Mapping[str, BenchQuestion]) -> Iterator[tuple[str, Work, float | None]]:
     """Every question's exact answer, with its rounding [eps]."""
     fixed, free, arm, *_ = (asks.where for asks in asked.values())
     cam, motion = fixed.cam, fixed.board.motion
