@@ -59,20 +59,22 @@ class BenchRow:
         """
         if not self.goal:
             return None
+        figure, sense, limit = self._against_goal()
+        match sense:
+            case "<=":
+                return figure <= limit
+            case ">=":
+                return figure >= limit
+            case middle:
+                return abs(figure - float(middle.removesuffix(" ±"))) <= limit
+
+    def _against_goal(self) -> tuple[float, str, float]:
+        """The figure that the goal is about, and the goal's sense and limit."""
         read = GOAL.fullmatch(self.goal)
         if read is None or read["unit"] not in (None, self.unit, *SECONDS_BY_UNIT):
             raise ValueError(f"the goal {self.goal!r} of {self.name!r} cannot be read")
-        limit, middle = float(read["limit"]), read["sense"].removesuffix(" ±")
-        match middle:
-            case "<=":
-                return self._figure(read["unit"]) <= limit
-            case ">=":
-                return self._figure(read["unit"]) >= limit
-            case _:
-                return abs(self._figure(read["unit"]) - float(middle)) <= limit
-
-    def _figure(self, unit: str | None) -> float:
-        return self.seconds / SECONDS_BY_UNIT[unit] if unit in SECONDS_BY_UNIT else self.ratio
+        figure = self.seconds / SECONDS_BY_UNIT[read["unit"]] if read["unit"] in SECONDS_BY_UNIT else self.ratio
+        return figure, read["sense"], float(read["limit"])
 
     @property
     def verdict(self) -> str:
@@ -83,10 +85,8 @@ class BenchRow:
         """
         if self.goal_met is not False:
             return "yes" if self.goal_met else ""
-        read = GOAL.fullmatch(self.goal)
-        assert read is not None
-        figure, limit = self._figure(read["unit"]), float(read["limit"])
-        return f"no: {figure / limit:.2g} times" if limit and "±" not in read["sense"] else "no"
+        figure, sense, limit = self._against_goal()
+        return f"no: {figure / limit:.2g} times" if limit and sense in ("<=", ">=") else "no"
 
     @property
     def explanation(self) -> str:
