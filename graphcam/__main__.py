@@ -1,5 +1,6 @@
 """The entry point of ``graphcam`` and ``python -m graphcam``; Ctrl-C works even while the libraries load."""
 
+import gc
 import os
 import signal
 import sys
@@ -22,8 +23,12 @@ def main() -> None:
         # A file or a pipe on Windows may have no letters for a rule or an index: better another sign than no table.
         if isinstance(stream, TextIOWrapper) and stream.errors == "strict":
             stream.reconfigure(errors="replace")
+    # Nothing that is loaded becomes garbage.
+    gc.disable()
     from graphcam.cli import main as run
 
+    gc.freeze()
+    gc.enable()
     if heard:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     try:

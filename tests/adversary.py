@@ -14,6 +14,7 @@ Errors are relative to the greatest value of what is computed.
 from __future__ import annotations
 
 import argparse
+import csv
 import math
 import sys
 import time
@@ -21,9 +22,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import count
+from tempfile import TemporaryDirectory
 
 import numpy as np
-from mpmath import diff, mpf
+from mpmath import diff, mp, mpf
 from reference import (
     EPS,
     ReferenceArm,
@@ -209,6 +211,150 @@ def _(draw: Random) -> float:
     return float(np.abs(fitted(phi - fitted.zero)[0] + rows.min() - rows).max() / (2 * tolerance))
 
 
+@trial("boundary_motion, spline", 1e-9)
+def _(draw: Random) -> float:
+    """The B-spline on the same knots, solved by a dense matrix."""
+    from scipy.interpolate import BSpline
+
+    top, height = draw.uniform(2.0, 4.0), draw.uniform(5, 30)
+    rest = {"v": 0.0, "a": 0.0}
+    middle = {"s": height * draw.uniform(0.4, 0.6)}
+    points = [
+        gc.MotionPoint(0.0, s=0.0, **rest),
+        gc.MotionPoint(top / 2, **middle),
+        gc.MotionPoint(top, s=height, **rest),
+    ]
+    inner = (top * draw.uniform([0.3, 0.55], [0.45, 0.7])).tolist()
+    back = gc.PolynomialPart([points[-1], gc.MotionPoint(FULL_TURN, s=0.0, **rest)])
+    found = gc.boundary_motion([gc.SplinePart(points, degree=4, knots=inner), back])
+    knots = np.array([0.0] * 5 + inner + [top] * 5)
+    n = knots.size - 5
+    asked = [(x.angle, k, value) for x in points for k, value in x.given.items()]
+    rows = [[float(BSpline(knots, np.eye(n)[i], 4)(x, nu=k)) for i in range(n)] for x, k, _ in asked]
+    exact = BSpline(knots, np.linalg.solve(np.array(rows), [value for *_, value in asked]), 4)
+    phi = draw.uniform(0, top, 50)
+    moved = found(phi - found.origin)[0] - found(-found.origin)[0]
+    return float(np.abs(moved - exact(phi)).max() / height)
+
+
+@trial("boundary_law", 1e-12)
+def _(draw: Random) -> float:
+    """A polynomial through a point on the way, solved at 50 digits."""
+    at, reached = draw.uniform(0.45, 0.55), draw.uniform(0.45, 0.55)
+    points = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(at, s=reached), gc.MotionPoint(1, s=1, v=0, a=0)]
+    found, u = gc.boundary_law(points), draw.uniform(0, 1, PLACES)
+    conditions = [(mpf(x.angle), k, value) for x in points for k, value in x.given.items()]
+    rows = [[mp.ff(m, k) * x ** max(m - k, 0) for m in range(7)] for x, k, _ in conditions]
+    c = mp.lu_solve(mp.matrix(rows), mp.matrix([mpf(value) for *_, value in conditions]))
+    return apart(found(u)[0], [mp.polyval(list(c)[::-1], mpf(x)) for x in u])
+
+
+@trial("constant_velocity_law", 16 * EPS)
+def _(draw: Random) -> float:
+    """Between the blends the lift is that of a line which meets the ends of the blends' middles."""
+    start, end = draw.uniform(0.05, 0.45, 2)
+    found = gc.constant_velocity_law(start, end, int(draw.integers(1, 4)))
+    u, fastest = draw.uniform(start, 1 - end), 2 / (2 - start - end)
+    f, f1, *_ = found.at(u)
+    return max(abs(f - fastest * (u - start / 2)), abs(f1 / fastest - 1), abs(found.peak_velocity / fastest - 1))
+
+
+@trial("sampled_law", 1e-9)
+def _(draw: Random) -> float:
+    """The quintic spline through the same rows, by scipy."""
+    from scipy.interpolate import make_interp_spline
+
+    name, u = str(draw.choice(["3-4-5", "cycloidal", "4-5-6-7"])), np.linspace(0, 1, int(draw.integers(12, 60)))
+    f = gc.law(name)(u)[0]
+    ends = [(1, 0.0), (2, 0.0)]
+    places = draw.uniform(0, 1, 50)
+    return float(
+        np.abs(gc.sampled_law("own", u, f)(places)[0] - make_interp_spline(u, f, 5, bc_type=(ends, ends))(places)).max()
+    )
+
+
+@trial("integrated_motion", 1.0)
+def _(draw: Random) -> float:
+    """The rows' second integral by scipy, closed; and no row of it is left by more than the tolerance."""
+    from scipy.interpolate import PPoly
+
+    moved = motion(draw, 15, 30, ("3-4-5", "cycloidal", "4-5-6-7"))
+    phi = np.radians(np.arange(0, 360, 1.0))
+    a = moved(phi)[2] + draw.uniform(-0.3, 0.3)
+    tolerance = 0.05
+    fitted = gc.integrated_motion(phi, a, tolerance)
+    ends, values = np.append(phi, FULL_TURN), np.append(a, a[0])
+    line = PPoly(np.array([np.diff(values) / np.diff(ends), values[:-1]]), ends)
+    closed = PPoly(line.c - np.array([[0.0], [float(line.integrate(0, FULL_TURN)) / FULL_TURN]]), ends)
+    twice = closed.antiderivative(2)
+    s = twice(phi) - twice(FULL_TURN) / FULL_TURN * phi
+    s -= s.mean() - fitted.measured.mean()
+    off = np.abs(fitted.measured - s).max() / np.ptp(s)
+    return max(float(off) / 1e-9, float(np.abs(fitted(phi - fitted.zero)[0] - fitted.measured).max()) / tolerance)
+
+
+@trial("cam_by_radii, outline_motion", 1e-6)
+def _(draw: Random) -> float:
+    """The roller comes down the stem until it rests on the outline, by brute force over its places."""
+    base, nose, reach, roller = draw.uniform(15, 25), draw.uniform(3, 8), draw.uniform(4, 9), draw.uniform(5, 15)
+    distance = base + reach - nose
+    # Any flank that touches both circles from outside is longer than half of what they take along the line of centres.
+    flank = (base + nose + distance) / 2 * draw.uniform(1.5, 4)
+    cam = gc.cam_by_radii(base, flank, nose_radius=nose, lift=reach)
+    found = gc.outline_motion(cam, gc.Translating(roller_radius=roller))
+    along = ((flank - base) ** 2 - (flank - nose) ** 2 + distance**2) / (2 * distance)
+    centre = complex(along, math.sqrt((flank - base) ** 2 - along**2))
+    ends = np.angle(-centre), np.angle(distance - centre)
+    arc = np.linspace(*np.unwrap(ends), 20_000)
+    flanks = centre + flank * np.exp(1j * arc)
+    circle = np.exp(1j * np.linspace(0, FULL_TURN, 40_000))
+    outline = np.concatenate([base * circle, distance + nose * circle, flanks, flanks.conj()])
+    phi = draw.uniform(0, 2 * cam.ascent, PLACES)
+    # The apex comes under the stem at the end of the ascent.
+    exact = _heights(phi - cam.ascent, outline, roller) - base - roller
+    return float(np.abs(found(phi)[0] - exact).max() / reach)
+
+
+def _heights(places, outline, roller: float) -> np.ndarray:
+    """How high a roller's centre rests on points of an outline that has turned by angles, on the x axis."""
+    seen = (outline * np.exp(-1j * turned) for turned in places)
+    near = (points[np.abs(points.imag) < roller] for points in seen)
+    return np.array([float((points.real + np.sqrt(roller**2 - points.imag**2)).max()) for points in near])
+
+
+@trial("ArcMotion", 1e-6)
+def _(draw: Random) -> float:
+    """The roller on the three arcs, by brute force over their places."""
+    rho1, roller = draw.uniform(12, 22), draw.uniform(4, 15)
+    root = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=rho1, A=(0, 40))[0]
+    moved = root.motion(roller)
+    a, g, f, d, c1, c2, c3 = (complex(*point) for point in (root.A, root.G, root.F, root.D, root.C1, root.C2, root.C3))
+    arcs = []
+    for middle, start, end in ((c2, a, g), (c3, g, f), (c1, f, d)):
+        turn = np.unwrap([np.angle(start - middle), np.angle(end - middle)])
+        arcs.append(middle + abs(start - middle) * np.exp(1j * np.linspace(*turn, 20_000)))
+    outline = np.concatenate([*arcs, abs(a) * np.exp(1j * np.linspace(math.pi / 2, 1.5 * math.pi, 20_000))]) / (
+        a / abs(a)
+    )
+    places = draw.uniform(0, moved.rise, PLACES)
+    exact = _heights(-places, outline, roller) - abs(a) - roller
+    return float(np.abs(moved(places)[0] - exact).max() / moved.lift)
+
+
+@trial("cam_through_points", 1.1)
+def _(draw: Random) -> float:
+    """An eccentric disc through points; its follower moves by Pythagoras, the fitted one within the tolerance."""
+    radius, e, roller, turn = draw.uniform(25, 40), draw.uniform(3, 10), draw.uniform(5, 12), draw.uniform(0, FULL_TURN)
+    centre = e * np.exp(1j * turn)
+    points = centre + radius * np.exp(1j * np.linspace(0, FULL_TURN, 360, endpoint=False))
+    found = gc.outline_motion(gc.cam_through_points(points), gc.Translating(roller_radius=roller))
+    phi = np.array(places(draw))
+    # The stem stands on the y axis; the cam turns counter-clockwise.
+    seen = centre * np.exp(1j * (phi + found.zero))
+    exact = seen.imag + np.sqrt((radius + roller) ** 2 - seen.real**2) - (radius + roller - e)
+    return float(np.abs(found(phi)[0] - exact).max() / 0.01)
+
+
 # --- profiles --------------------------------------------------------------------------------------------------------
 
 
@@ -279,6 +425,19 @@ def _(draw: Random) -> float:
     return float(bool(cut) != (follower.roller_radius > sharpest))
 
 
+@trial("Cam.trimmed_profile", 1e-9)
+def _(draw: Random) -> float:
+    """No place of what is left of an undercut profile lies nearer to the pitch curve than the roller's radius."""
+    from scipy.spatial import cKDTree
+
+    knife = translating(draw)
+    roller = min(1 / highest(knife.pitch_curvature, knife, signed=False), 40.0) * draw.uniform(1.01, 1.2)
+    cam = gc.Cam(knife.motion, gc.Translating(knife.follower.offset, roller), knife.prime_radius, knife.rotation)
+    pitch = cam.pitch_curve(np.linspace(0, FULL_TURN, 20_001))
+    near = cKDTree(pitch).query(np.concatenate([*cam.trimmed_profile(500)]).reshape(-1, 2))[0]
+    return max(0.0, roller - float(near.min())) / roller
+
+
 @trial("circumradius", 1e-9)
 def _(draw: Random) -> float:
     centre, radius = draw.uniform(-50, 50, 2), draw.uniform(1, 100)
@@ -336,6 +495,23 @@ def _(draw: Random) -> float:
     return abs(found.prime_radius - max(least + needed, 0.0)) / found.prime_radius
 
 
+@trial("minimum_radius, oscillating flat", 1e-5)
+def _(draw: Random) -> float:
+    """The profile's radius of curvature, by differences of its points, comes down to the one that is permitted."""
+    moved, turn = motion(draw, 0.05, 0.15, ("cycloidal", "3-4-5", "4-5-6-7")), sense(draw)
+    follower, least = gc.OscillatingFlat(draw.uniform(100, 130), draw.uniform(-5, 5)), draw.uniform(15, 30)
+    found = gc.minimum_radius(moved, follower, turn, curvature=least)
+    cam, h = gc.Cam(moved, follower, found.prime_radius, turn), 1e-4
+
+    def bend(phi):
+        """The curvature, which has no sign to lose where the radius is far from zero."""
+        before, here, after = (cam.profile(phi + k * h) @ [1, 1j] for k in (-1, 0, 1))
+        first, second = (after - before) / (2 * h), (after - 2 * here + before) / h**2
+        return np.abs((first.conj() * second).imag) / np.abs(first) ** 3
+
+    return abs(1 / highest(bend, cam, signed=False) / least - 1)
+
+
 @trial("size_cam", 2e-6)
 def _(draw: Random) -> float:
     """Wider ranges refuse nothing that narrower ones keep, and lose nothing: the radius is no larger."""
@@ -345,6 +521,99 @@ def _(draw: Random) -> float:
     narrow = gc.size_cam(moved, load, prime_radius=(25, 80), **given, rise=math.radians(29))
     wide = gc.size_cam(moved, load, prime_radius=(draw.uniform(11, 25), 80), **given, rise=math.radians(29))
     return max(0.0, wide.radius / narrow.radius - 1)
+
+
+@trial("largest_roller", 1e-9)
+def _(draw: Random) -> float:
+    cam = translating(draw) if draw.integers(2) else arm(draw)
+    sharpest = 1 / highest(cam.pitch_curvature, cam, signed=False)
+    return abs(gc.largest_roller(cam) / min(sharpest, cam.prime_radius) - 1)
+
+
+@trial("ConjugateCam.profile", 1e-9)
+def _(draw: Random) -> float:
+    """The second centre moves along with the stem; the profile lies a radius inside its path, square to it."""
+    cam, roller = gc.Cam(motion(draw, 3, 10), gc.Translating(roller_radius=8.0), 60.0, sense(draw)), draw.uniform(5, 12)
+    x, y = draw.uniform(-4, 4), -draw.uniform(60, 70)
+    second = gc.ConjugateCam(cam, at=(x, y), roller_radius=roller)
+    turn = -1j if cam.rotation == "ccw" else 1j
+
+    def path(phi):
+        return (complex(x, y) + 1j * cam.motion(phi)[0]) * np.exp(turn * phi)
+
+    phi = np.array(places(draw))
+    _, v, *_ = cam.motion(phi)
+    along = (1j * v + turn * (complex(x, y) + 1j * cam.motion(phi)[0])) * np.exp(turn * phi)
+    inside = second.profile(phi) @ [1, 1j] - path(phi)
+    square = (inside * along.conj()).real / (roller * np.abs(along))
+    inwards = (inside * path(phi).conj()).real < 0
+    return max(float(np.abs(np.abs(inside) / roller - 1).max()), float(np.abs(square).max()), float(not inwards.all()))
+
+
+@trial("face_width", 1e-9)
+def _(draw: Random) -> float:
+    moved, turn = motion(draw), sense(draw)
+    at, sigma = gc.Cam(moved, gc.FlatFaced(), 1000.0), 1 if turn == "ccw" else -1
+    found = gc.face_width(moved, turn)
+    right, left = (highest(lambda phi, k=k: k * sigma * moved(phi)[1], at, signed=False) for k in (1, -1))
+    return max(abs(found.right / right - 1), abs(found.left / left - 1))
+
+
+@trial("face_reach", 1e-9)
+def _(draw: Random) -> float:
+    moved, turn = motion(draw, 0.05, 0.15), sense(draw)
+    follower, radius = gc.OscillatingFlat(draw.uniform(100, 130), draw.uniform(-5, 5)), draw.uniform(50, 60)
+    cam, sigma = gc.Cam(moved, follower, radius, turn), 1 if turn == "ccw" else -1
+    start = math.asin((radius + follower.face_offset) / follower.distance)
+
+    def reach(phi):
+        s, v, *_ = moved(phi)
+        return follower.distance * np.cos(start + s) / (1 + sigma * v)
+
+    found = gc.face_reach(moved, follower, radius, turn)
+    near = -highest(lambda phi: -reach(phi), cam, signed=False)
+    return max(abs(found.near / near - 1), abs(found.far / highest(reach, cam, signed=False) - 1))
+
+
+@trial("radius_sensitivity", 1e-5)
+def _(draw: Random) -> float:
+    """By the permitted angle, by a difference of the minimum radius itself."""
+    moved, step = motion(draw, laws=("cosine", "cycloidal", "3-4-5", "4-5-6-7")), 1e-5
+    limit, offset = math.radians(draw.uniform(20, 45)), draw.uniform(-5, 5)
+    given = {"rotation": sense(draw), "offset": offset}
+    found = gc.radius_sensitivity(moved, gc.Translating(), rise=limit, **given)["rise"]
+    radii = [gc.minimum_radius(moved, gc.Translating(), rise=limit + k * step, **given).prime_radius for k in (1, -1)]
+    return abs((radii[0] - radii[1]) / (2 * step) / found - 1)
+
+
+@trial("sensitivities", 1e-12)
+def _(draw: Random) -> float:
+    """Across the flank an error lifts by 1/cos(alpha), beside it by tan(alpha)."""
+    cam, phi = translating(draw), np.array(places(draw))
+    found, alpha = gc.sensitivities(cam).motion(phi), cam.pressure_angle(phi)
+    across, beside = found["profile"][0], np.abs(found["offset"][0])
+    return max(apart(across, 1 / np.cos(alpha)), apart(beside, np.abs(np.tan(alpha))))
+
+
+@trial("MadeCam", 1e-9)
+def _(draw: Random) -> float:
+    """A roller that is too large rests on the parallel curve of the pitch curve, sought by bisection."""
+    from scipy.optimize import brentq
+
+    cam, larger = translating(draw), draw.uniform(-0.1, 0.1)
+    made = gc.MadeCam(cam, gc.Deviations((), np.zeros(0), {"roller_radius": larger}))
+    e, sigma = cam.follower.offset, 1 if cam.rotation == "ccw" else -1
+    rest = math.sqrt(cam.prime_radius**2 - e**2)
+
+    def centre(theta: float, phi: float) -> complex:
+        pitch, profile = (points(theta) @ [1, 1j] for points in (cam.pitch_curve, cam.profile))
+        return (pitch + larger * (pitch - profile) / abs(pitch - profile)) * np.exp(1j * sigma * phi)
+
+    off = []
+    for phi in places(draw):
+        theta = brentq(lambda t, phi=phi: centre(t, phi).real - e, phi - 0.1, phi + 0.1, xtol=1e-15)
+        off.append(abs(float(made(phi)[0]) - (centre(theta, phi).imag - rest)))
+    return max(off) / cam.motion.lift
 
 
 # --- forces, tolerances, sweeps, drawings ----------------------------------------------------------------------------
@@ -396,7 +665,7 @@ def _(draw: Random) -> float:
     return abs(found.value / highest(pressure, cam) - 1)
 
 
-@trial("least_preload", 1e-9)
+@trial("spring_preload", 1e-9)
 def _(draw: Random) -> float:
     """The spring just holds the follower where it is flung off most."""
     cam, load = translating(draw), gc.SpringLoad(1.0, draw.uniform(300, 900), draw.uniform(0.1, 2))
@@ -409,7 +678,120 @@ def _(draw: Random) -> float:
     return abs(gc.spring_preload(cam, load).preload / needed - 1)
 
 
-@trial("MotionBands.widest", 1e-9)
+@trial("CamForces.at, oscillating", 1e-12)
+def _(draw: Random) -> float:
+    """Euler's second law about the pivot with a torsion spring; the normal force acts on the lever l cos(alpha)."""
+    cam, phi = arm(draw), np.array(places(draw))
+    load = gc.ArmLoad(draw.uniform(500, 3000), draw.uniform(30, 300), draw.uniform(1e3, 1e4), preload=1e6)
+    s, _, a, _ = cam.motion(phi)
+    omega = 2 * math.pi * load.speed_rpm / 60
+    torque = load.inertia * a * 1e-3 * omega**2 + 1e6 + load.stiffness * s
+    return apart(gc.CamForces(cam, load).at(phi).normal, torque / (80.0 * np.cos(cam.pressure_angle(phi))))
+
+
+@trial("Contact", 1e-9)
+def _(draw: Random) -> float:
+    """The extremes of the force, and how much of the turn it is negative."""
+    cam = translating(draw)
+    load = gc.SpringLoad(0.5, draw.uniform(300, 900), draw.uniform(0.5, 3), preload=draw.uniform(0, 200))
+    omega, found = 2 * math.pi * load.speed_rpm / 60, gc.Contact(cam.motion, load)
+
+    def force(phi):
+        s, _, a, _ = cam.motion(phi)
+        return load.mass * a * 1e-3 * omega**2 + load.preload + load.stiffness * s
+
+    top, bottom = highest(force, cam, signed=False), -highest(lambda phi: -force(phi), cam, signed=False)
+    phi = np.linspace(0, FULL_TURN, 40_001)
+    inside = np.zeros(phi.shape, dtype=bool)
+    for start, end in found.lost():
+        inside |= np.mod(phi - start, FULL_TURN) < end - start
+    missed = np.abs(force(phi))[inside != (force(phi) < 0)]
+    # At a jump of the force a sample may lie on either side.
+    lost = float(np.count_nonzero(missed > 0.01 * top) > 2 * len(cam.motion.breaks))
+    return max(abs(found.max_force().value / top - 1), abs(found.min_force().value - bottom) / top, lost)
+
+
+@trial("jamming_margin", 1e-9)
+def _(draw: Random) -> float:
+    """The cam drags a roller's follower on in its own sense."""
+    cam, mu = translating(draw), draw.uniform(0, 0.4)
+    margin = -highest(
+        lambda phi: mu * np.sin(cam.pressure_angle(phi)) - np.cos(cam.pressure_angle(phi)), cam, signed=False
+    )
+    return abs(gc.jamming_margin(cam, mu).value - margin)
+
+
+@trial("follower_response", 1e-8)
+def _(draw: Random) -> float:
+    """The mass on the end of a spring and a damper, by an integrator of the eighth order."""
+    from scipy.integrate import solve_ivp
+
+    name = str(draw.choice(["3-4-5", "cycloidal", "4-5-6-7"]))
+    n, damping, driven = draw.uniform(0.5, 6), draw.uniform(0, 0.2), gc.law(name)
+    omega = 2 * math.pi * n
+
+    def slope(u, state):
+        f, f1 = driven(min(u, 1.0), derivatives=1)
+        return [state[1], omega**2 * (f - state[0]) + 2 * damping * omega * (f1 - state[1])]
+
+    solved = solve_ivp(slope, (0, 1), [0.0, 0.0], "DOP853", rtol=1e-12, atol=1e-13, t_eval=[0.5, 1.0], max_step=0.05)
+    x, x1, _ = gc.follower_response(name, n, damping)([0.5, 1.0])
+    return float(max(np.abs(x - solved.y[0]).max(), np.abs(x1 - solved.y[1]).max() / 2))
+
+
+@trial("shock_spectrum", 1e-10)
+def _(draw: Random) -> float:
+    """The residual of the cycloidal law in closed form."""
+    n = draw.uniform(1.1, 9, 5)
+    exact = 4 * math.pi * n * np.abs(np.sin(math.pi * n)) / (n * n - 1)
+    return float(np.abs(gc.shock_spectrum("cycloidal", n).residual - exact).max() / exact.max())
+
+
+@trial("VibratingFollower", 1e-6)
+def _(draw: Random) -> float:
+    """The equation of motion, with the acceleration by differences of the velocity; and it is periodic."""
+    moved, speed = motion(draw), draw.uniform(200, 900)
+    train = gc.FollowerTrain(0.5, draw.uniform(500, 3000), draw.uniform(0.02, 0.1), spring=20.0, preload=200.0)
+    follower, omega, h = gc.VibratingFollower(moved, train, speed), 2 * math.pi * speed / 60, 1e-5
+    phi = np.array([x for x in places(draw) if np.abs(np.array(moved.breaks) - x).min() > 0.01] or [0.01])
+    at, around = follower(phi), [follower(phi + k * h).v for k in (-1, 1)]
+    s, v, *_ = moved(phi)
+    acceleration = (around[1] - around[0]) / (2 * h)
+    critical = 2 * math.sqrt((train.stiffness + train.spring) * 1e3 * train.mass)
+    damper = train.damping * critical * 1e-3
+    inertia = train.mass * 1e-3 * omega**2 * acceleration
+    left = inertia + damper * omega * (at.v - v) + train.stiffness * (at.x - s) + train.spring * at.x
+    ends = follower(np.array([0.0, FULL_TURN]))
+    largest = train.mass * 1e-3 * omega**2 * np.abs(follower(np.linspace(0, FULL_TURN, 500)).a).max()
+    return max(float(np.abs(left).max() / largest), float(np.abs(np.diff(ends.x))[0] / moved.lift))
+
+
+@trial("contact_by_elements", 2e-3)
+def _(draw: Random) -> float:
+    """Hertz's pressure."""
+    force, width, first, second = (
+        draw.uniform(200, 3000),
+        draw.uniform(10, 30),
+        draw.uniform(20, 60),
+        draw.uniform(8, 30),
+    )
+    found = gc.contact_by_elements(force, width, first, second, parts=12)
+    relative = 1 / first + 1 / second
+    return abs(found.peak_pressure / math.sqrt(force * 206_000 / (2 * (1 - 0.09)) * relative / (math.pi * width)) - 1)
+
+
+@trial("write_profile", 1.0)
+def _(draw: Random) -> float:
+    """The points of the file, to its digits."""
+    cam = translating(draw)
+    with TemporaryDirectory() as folder:
+        path = gc.write_profile(cam, folder, "csv")["csv"]
+        rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+    angle, x, y = (np.array([float(row[name]) for row in rows]) for name in [*rows[0]][:3])
+    return float(np.abs(cam.profile(np.radians(angle)) - np.column_stack([x, y])).max() / 1e-9)
+
+
+@trial("motion_bands", 1e-9)
 def _(draw: Random) -> float:
     cam = translating(draw)
     amplitude, waves, zone = draw.uniform(1e-5, 1e-3), int(draw.integers(1, 30)), draw.uniform(0.01, 0.2)

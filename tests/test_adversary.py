@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from inspect import isfunction
+
 import adversary
 import pytest
 from adversary import TRIALS, Trial, main
@@ -45,6 +47,16 @@ def test_it_ends_when_its_time_is_over(capsys):
 
 def test_every_trial_has_a_name_of_its_own():
     assert len({each.name for each in TRIALS}) == len(TRIALS)
+
+
+READ_OR_WRITTEN = {"builtin_arcs_task", "builtin_task", "load_task", "grid", "sizing_sheet", "size_task"}
+"""Public functions that read, write or arrange; what ``size_task`` computes is ``size_cam``."""
+
+
+def test_every_public_function_that_computes_has_a_trial():
+    functions = {name for name in gc.__all__ if isfunction(getattr(gc, name))} - READ_OR_WRITTEN
+    assert {name for name in functions if not any(name in each.name for each in TRIALS)} == set()
+    assert len(functions) > 30
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """The three figures of the bench, log-log, with the curves labelled where they run."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 from scipy.optimize import isotonic_regression
 
 from graphcam.bench.convergence import EXACT_ERROR_LIMIT, Series
-from graphcam.bench.hand_errors import Hands
+from graphcam.bench.hand_errors import Hands, PencilError
 from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
 
@@ -162,6 +162,9 @@ def _panel_of_parts(axes: Axes, title: str, found: Labelled, above: float | None
 QUESTION_TITLES = {
     "displacement": "Displacement from acceleration",
     "minimum prime radius": "Minimum prime radius",
+    "minimum prime radius, arm": "Minimum prime radius of an arm",
+    "pressure angle": "Pressure angle",
+    "curvature": "Minimum radius of curvature",
     "profile": "Working profile",
 }
 LABELS = {
@@ -172,6 +175,13 @@ LABELS = {
     ("minimum prime radius", "graphical"): ("graphical", 0.72, (10, 4), "left"),
     ("minimum prime radius", "HalfspaceIntersection"): ("half-space\nintersection", 0.5, (-9, -2), "right"),
     ("minimum prime radius", "SLSQP"): ("SLSQP", 0.34, (0, 10), "center"),
+    ("minimum prime radius, arm", "graphical"): ("graphical", 0.72, (10, 4), "left"),
+    ("minimum prime radius, arm", "HalfspaceIntersection"): ("half-space\nintersection", 0.5, (-9, -2), "right"),
+    ("minimum prime radius, arm", "SLSQP"): ("SLSQP", 0.0, (9, 4), "left"),
+    ("pressure angle", "graphical"): ("graphical", 0.72, (10, 4), "left"),
+    ("pressure angle", "np.gradient"): ("np.gradient", 0.5, (-9, 0), "right"),
+    ("curvature", "graphical"): ("graphical", 1.0, (8, 10), "left"),
+    ("curvature", "np.gradient"): ("np.gradient", 0.5, (-9, 0), "right"),
     ("profile", "graphical"): ("graphical", 1.0, (8, 10), "left"),
     ("profile", "shapely buffer"): ("polygon\nbuffer", 0.5, (-9, -4), "right"),
 }
@@ -180,23 +190,38 @@ METHOD_ORDERS = {"graphical": 2, "cumulative_simpson": 4}
 """The orders of the methods that have a line of their order in the figure."""
 
 
-def error_against_time(methods: Sequence[Method], bands: Mapping[str, tuple[float, float]], pair: float) -> Figure:
-    """Graphical, sampled and exact answers to three questions, with floor, order lines and pencil band."""
-    figure = Figure(figsize=(12.6, 5.4), layout="constrained")
-    panels = figure.subplots(1, 3, sharey=True)
+def error_against_time(methods: Sequence[Method], pencils: Sequence[PencilError], pair: float) -> Figure:
+    """Graphical, sampled and exact answers to six questions, with floor, order lines and what a pencil leaves."""
+    figure = Figure(figsize=(12.6, 10.4), layout="constrained")
+    panels = figure.subplots(2, 3, sharey=True)
     times = [pairs for m in methods for pairs in m.pairs]
-    for axes, (question, title) in zip(panels, QUESTION_TITLES.items(), strict=True):
-        axes.set(xscale="log", yscale="log", xlim=(min(times) / 4, max(times) * 5), ylim=(2e-17, 0.6))
+    for axes, (question, title) in zip(panels.flat, QUESTION_TITLES.items(), strict=True):
+        axes.set(xscale="log", yscale="log", xlim=(min(times) / 4, max(times) * 5), ylim=(2e-17, 20))
         axes.set_title(title, pad=34)
-        axes.set_xlabel("time, in sine–cosine pairs")
         axes.yaxis.set_major_locator(LogLocator(100, numticks=12))
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.grid(color=FAINT, lw=0.7)
         axes.set_axisbelow(True)
         _time_axis(axes, pair)
-        _panel_of_time(axes, [m for m in methods if m.question == question], *bands[question])
-    panels[0].set_ylabel("relative error")
+        _draw_pencils(axes, [p for p in pencils if p.question == question])
+        _panel_of_time(axes, [m for m in methods if m.question == question])
+    for axes in panels[1]:
+        axes.set_xlabel("time, in sine–cosine pairs")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("relative error")
+    told = "Red band: scatter of drawings in 12 parts, from one pencil to the other. Short red lines: their bias."
+    figure.supxlabel(told, fontsize=9, color=ACCENT)
     return figure
+
+
+def _draw_pencils(axes: Axes, pencils: Sequence[PencilError]) -> None:
+    """The scatter of the pencils as a band, their biases as short lines at its end, and both in figures above."""
+    right = axes.get_xlim()[1] / 1.2
+    axes.axhspan(pencils[0].scatter, pencils[-1].scatter, color=ACCENT, alpha=0.13, lw=0, zorder=0)
+    told = [f"pencil {p.sigma_mm:g} mm: bias {100 * p.bias:.2g} %, scatter {100 * p.scatter:.2g} %" for p in pencils]
+    for p in pencils:
+        axes.axhline(p.bias, xmin=0.93, color=ACCENT, lw=1.0, zorder=1)
+    axes.text(right, 8, "\n".join(told), color=ACCENT, ha="right", va="top", fontsize=8.5)
 
 
 def _time_axis(axes: Axes, pair: float) -> None:
@@ -209,11 +234,9 @@ def _time_axis(axes: Axes, pair: float) -> None:
     top.spines["top"].set_color(FAINT)
 
 
-def _panel_of_time(axes: Axes, methods: Sequence[Method], low: float, high: float) -> None:
-    """``low``, ``high`` : the band of the hands."""
+def _panel_of_time(axes: Axes, methods: Sequence[Method]) -> None:
+    """The methods of one question."""
     right = axes.get_xlim()[1] / 1.2
-    axes.axhspan(low, high, color=ACCENT, alpha=0.13, lw=0, zorder=0)
-    axes.text(right, high * 1.25, "by hand, pencil σ = 0.2 mm", color=ACCENT, ha="right", va="bottom", fontsize=9)
     axes.axhline(EPS, color=GREY, lw=1.0, zorder=1)
     axes.text(right, EPS / 1.5, "floor ε", color=GREY, ha="right", va="top", fontsize=9)
     blues = iter(BLUE_SHADES)
@@ -224,7 +247,10 @@ def _panel_of_time(axes: Axes, methods: Sequence[Method], low: float, high: floa
         elif method.kind == "graphical":
             _curve(axes, method, t, error, color=ACCENT, lw=2.2, ms=4.6)
             for k in (method.n.index(n) for n in (12, 96) if n in method.n):
-                _note(axes, f"n = {method.n[k]}", (t[k], error[k]), (7, 1), color=ACCENT, fontsize=8.5, va="center")
+                # Where the curve runs on to the right the number stands on the left.
+                on = t[min(k + 1, t.size - 1)] > 1.5 * t[k]
+                look = {"color": ACCENT, "fontsize": 8.5, "va": "center", "ha": "right" if on else "left"}
+                _note(axes, f"n = {method.n[k]}", (t[k], error[k]), (-7 if on else 7, 1), **look)
         else:
             axes.plot(t, error, "D", color=INK, ms=8, zorder=5)
             _note(axes, "exact", (t[0], error[0]), (0, 10), weight="bold", ha="center", va="bottom")
@@ -234,8 +260,8 @@ def _curve(axes: Axes, method: Method, t: Floats, error: Floats, **look: Any) ->
     """A method's points, joined, its name, and the slope to which it tends as its time grows with n."""
     axes.plot(t, error, "o-", zorder=4, **look)
     above = np.flatnonzero(error > 100 * EPS)
-    if method.name in METHOD_ORDERS and above.size:
-        k = int(above[-1])
+    # Where the error falls no more there is no order.
+    if method.name in METHOD_ORDERS and above.size and error[k := int(above[-1])] < error[k - 1] / 2:
         _draw_order_guide(axes, (t[k], min(4 * t[k], axes.get_xlim()[1] / 2.6)), error[k], METHOD_ORDERS[method.name])
     name, place, away, align = LABELS[method.question, method.name]
     at, weight = round(place * (t.size - 1)), "bold" if method.kind == "graphical" else "normal"

@@ -12,7 +12,7 @@ from graphcam import __version__
 from graphcam.bench.bench_followers import BENCH_LAWS
 from graphcam.bench.convergence import BOUNDS_SECTION, CONVERGENCE, PARTS
 from graphcam.bench.exact_rows import EXACT_SECTION
-from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL_SECTION, bands
+from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL_ERRORS, PENCIL_SECTION
 from graphcam.bench.load_rows import LOADS_SECTION
 from graphcam.bench.measured_rows import MEASURED_SECTION
 from graphcam.bench.peers import PEERS
@@ -26,7 +26,7 @@ from graphcam.words import Words, say
 
 ROWS = (EXACT_SECTION, LOADS_SECTION, BOUNDS_SECTION, MEASURED_SECTION, WAITING_SECTION, STUDIO_SECTION, CURVE_SECTION)
 """The sections of measured figures and goals."""
-REPORT_SECTIONS: tuple[Section, ...] = (CONVERGENCE, PENCIL_SECTION, BUDGETS, METHODS, *ROWS, PEERS, DRAWING)
+REPORT_SECTIONS = (CONVERGENCE, PENCIL_SECTION, BUDGETS, PENCIL_ERRORS, METHODS, *ROWS, PEERS, DRAWING)
 """All tables, in order."""
 PARTS_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 """Parts, each time twice and then four times as many."""
@@ -71,12 +71,10 @@ class Report:
 
     pair : the time of one sine and one cosine on this machine [s], the unit of all times
     records : of each section, by its key
-    bands : between which relative errors nine hands in ten stay, by the question of the methods
     """
 
     pair: float
     records: Mapping[str, tuple[Any, ...]]
-    bands: Mapping[str, tuple[float, float]]
 
     def tables(self) -> Iterator[tuple[Section, list[str], list[list[str]]]]:
         """Every section of which something was measured, with the head and the rows of its table."""
@@ -109,7 +107,7 @@ class Report:
         stages = {d["construction"]: d["steps"] for d in drawing if d["readings"] is None}
         rest = {"drawing": [d for d in drawing if d["readings"] is not None], "rendering": stages}
         unit = "one sine and one cosine of 1e5, in the same run"
-        return _plain_data({"unit_of_time": unit, **told, "pencil_bands": self.bands, **rest})
+        return _plain_data({"unit_of_time": unit, **told, **rest})
 
 
 def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
@@ -118,7 +116,7 @@ def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
     for section in REPORT_SECTIONS:
         progress(section.title)
         records[section.key] = tuple(section.measured(effort))
-    return Report(pair, records, bands(effort.hands))
+    return Report(pair, records)
 
 
 def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], None] = ignore_progress) -> Report:
@@ -142,9 +140,10 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
         document = {"graphcam": __version__, **report.to_dict()}
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
         (folder / "bench.json").write_text(text + "\n", encoding="utf-8", newline="\n")
-        series, hands, methods = (report.records[each.key] for each in (CONVERGENCE, PENCIL_SECTION, METHODS))
+        shown = CONVERGENCE, PENCIL_SECTION, METHODS, PENCIL_ERRORS
+        series, hands, methods, pencils = (report.records[each.key] for each in shown)
         figures.save(figures.error_against_parts, folder / "bench-parts", series)
-        figures.save(figures.error_against_time, folder / "bench-time", methods, report.bands, report.pair)
+        figures.save(figures.error_against_time, folder / "bench-time", methods, pencils, report.pair)
         figures.save(figures.error_of_the_hand, folder / "bench-pencil", hands)
     return report
 

@@ -8,10 +8,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from graphcam.bench.bench_followers import BENCH_LAWS, FOLLOWER_KINDS, BenchFollower, scene
+from graphcam.bench.bench_followers import BENCH_LAWS, FOLLOWER_KINDS, MAIN_LAW, BenchFollower, free_scene, scene
 from graphcam.bench.rows import EMPTY_CELL, BenchRow, Line, Parts, Section
 from graphcam.comparison.double_integration import chord_errors
 from graphcam.comparison.quantities import Comparison, side_of
@@ -92,37 +93,73 @@ def series_of(where: BenchFollower, chains: Mapping[int, Chain]) -> list[Series]
 
 
 def error_of(where: BenchFollower, construction: str, reading: str, chain: Chain) -> float:
-    """The relative error of a reading, measured as its meaning says.
+    """The maximum relative error of a reading, measured as its meaning says.
 
     >>> where = scene("translating", "cycloidal")
     >>> error_of(where, "integration", "s", where.chain(24)) < error_of(where, "integration", "s", where.chain(12)) / 3
     True
     """
+    return float(np.nanmax(np.abs(errors_of(where, construction, reading, chain))))
+
+
+def errors_of(where: BenchFollower, construction: str, reading: str, chain: Chain) -> Floats:
+    """(hands, places) the relative errors of a reading, measured as its meaning says; NaN where nothing is drawn."""
     drawn, phi = chain[construction], chain.board.stations.phi
     said = drawn.meaning.reading(reading).converges
     assert said is not None
     sides = next((compared.sides for compared in drawn.meaning.reading(reading).compared if compared.sides), "")
     read = said.of or sides or reading
-    value = drawn.value(read)
+    value = np.atleast_2d(drawn.readings[read].value)
     match said.measured:
         case "value":
-            # Of several candidates the first, of two sides the exact one's.
+            # Of several candidates the first, of two sides the exact one's; else one reading of every hand.
             place = side_of(where.exact[said.exact]) if sides else 0
-            return abs(float(np.atleast_1d(value)[place]) / where.exact[said.exact] - 1)
+            return (value[:, [place]] if said.of or sides else value.T) / where.exact[said.exact] - 1
         case "at stations":
             at = Comparison(chain, where.cam).exact_stations
             there = {**dict(zip("sva", at.values, strict=False)), "pressure_angle": at.pressure_angle}[said.exact]
-            return float(np.nanmax(np.abs(value - there)) / np.abs(there).max())
+            return (value - there) / np.abs(there).max()
         case "from the pitch curve":
-            off = np.abs(drawn.value("x") + 1j * drawn.value("y") - as_complex(where.cam.pitch_curve(phi)))
+            points = drawn.readings["x"].value + 1j * drawn.readings["y"].value
+            off = np.abs(np.atleast_2d(points) - as_complex(where.cam.pitch_curve(phi)))
         case "from the profile":
-            touch = drawn.points["touch"] * drawn.readings[read].per_mm
-            off = distance_from_profile(where.cam, touch, phi)
-    return float(off.max()) / where.sizes.prime_radius
+            touch = np.atleast_2d(drawn.points["touch"] * drawn.readings[read].per_mm)
+            kept, off = np.isfinite(touch), np.full(touch.shape, np.nan)  # what another circle covers is not drawn
+            off[kept] = distance_from_profile(where.cam, touch[kept], np.broadcast_to(phi, touch.shape)[kept])
+    return off / where.sizes.prime_radius
+
+
+class BenchQuestion(NamedTuple):
+    """What drawn, sampled and exact methods are asked, each in its own way.
+
+    kind : by which the numbers of parts are chosen
+    """
+
+    where: BenchFollower
+    construction: str
+    reading: str
+    kind: str = "graphical"
+
+
+def questions() -> Mapping[str, BenchQuestion]:
+    """The questions by their names.
+
+    >>> [*questions()]
+    ['displacement', 'minimum prime radius', 'minimum prime radius, arm', 'pressure angle', 'curvature', 'profile']
+    """
+    fixed, free, arm = scene("translating", MAIN_LAW), free_scene(MAIN_LAW), scene("arm", MAIN_LAW)
+    return {
+        "displacement": BenchQuestion(fixed, "integration", "s"),
+        "minimum prime radius": BenchQuestion(free, "minimum_radius", "prime_radius"),
+        "minimum prime radius, arm": BenchQuestion(arm, "minimum_radius", "prime_radius"),
+        "pressure angle": BenchQuestion(fixed, "pressure_angle", "alpha"),
+        "curvature": BenchQuestion(fixed, "curvature", "rho", "profile"),
+        "profile": BenchQuestion(fixed, "working_profile", "radius", "profile"),
+    }
 
 
 def distance_from_profile(cam: Cam, points: Complexes, near: Floats, reach: float = math.radians(3)) -> Floats:
-    """How far points lie from the exact profile of a roller, which passes each within ``reach`` [rad] of its angle."""
+    """How far points lie outside a roller's exact profile, which passes each within ``reach`` [rad] of its angle."""
     phi = near
     for _ in range(SEARCH_ROUNDS):
         around = phi[:, None] + np.linspace(-reach, reach, SEARCH_SAMPLES)
@@ -132,7 +169,7 @@ def distance_from_profile(cam: Cam, points: Complexes, near: Floats, reach: floa
     # Across the profile, so that what is left of the search along it does not count.
     at = as_complex(cam.profile(phi))
     normal = (as_complex(cam.pitch_curve(phi)) - at) / cam.roller_radius
-    return np.abs(((points - at) * normal.conj()).real)
+    return ((points - at) * normal.conj()).real
 
 
 def nearest_angles(cam: Cam, points: Complexes) -> Floats:

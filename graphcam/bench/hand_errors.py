@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphcam.bench.bench_followers import FOLLOWER_KINDS, LIFT, MAIN_LAW, BenchFollower, free_scene, motion_of, scene
-from graphcam.bench.convergence import distance_from_profile
+from graphcam.bench.bench_followers import FOLLOWER_KINDS, LIFT, MAIN_LAW, BenchFollower, motion_of, scene
+from graphcam.bench.convergence import errors_of, questions
 from graphcam.bench.rows import Line, Parts, Section
 from graphcam.comparison.bounds import ErrorBudget
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 from graphcam.words import say
 
-SIGMA = 0.2
-"""The error of a line, of a setting and at the edge of the protractor [mm]."""
+SIGMAS = (0.1, SIGMA := 0.2)
+"""The errors of a line, of a setting and at the edge of the protractor, of good and of usual hands [mm]."""
 PARTS = (3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96)
 QUANTILES = (5.0, 95.0)
 """A band of drawings is between these percentiles."""
@@ -71,10 +71,56 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
 def shape_errors(where: BenchFollower, parts: int, pencil: Pencil) -> Floats:
     """The maximum error of s on the rise in every drawing, relative to the lift."""
     chain = where.chain(parts, pencil)
-    stations = chain.board.stations
-    rise = stations.phases[0]
-    exact = chain.board.motion.at(0, stations.u[rise])[0]
-    return np.abs(chain["integration"].readings["s"].value[:, rise] - exact).max(axis=1) / LIFT
+    rise = chain.board.stations.phases[0]
+    return np.abs(errors_of(where, "integration", "s", chain)[:, rise]).max(axis=1)
+
+
+@dataclass(frozen=True)
+class PencilError:
+    """What a pencil leaves of a question in the usual number of parts, relative as the methods' errors.
+
+    bias : how far the mean of many drawings is off, which no repetition removes; it contains the method's own error
+    scatter : the standard deviation of one drawing
+    """
+
+    question: str
+    sigma_mm: float
+    bias: float
+    scatter: float
+
+
+def pencil_errors(hands: int, parts: int = 12) -> Iterator[PencilError]:
+    """Bias and scatter of every question for every pencil; of a curve the maxima over its places."""
+    for name, (where, construction, reading, _) in questions().items():
+        for sigma in SIGMAS:
+            errors = errors_of(where, construction, reading, where.chain(parts, Pencil.of(sigma, hands)))
+            bias, scatter = np.abs(np.nanmean(errors, axis=0)).max(), np.nanstd(errors, axis=0).max()
+            yield PencilError(name, sigma, float(bias), float(scatter))
+
+
+def _texts_of_pencils(found: Sequence[PencilError], _: float) -> Iterator[list[str]]:
+    yield ["question", "pencil", "bias", "scatter"]
+    for p in found:
+        yield [p.question, f"{p.sigma_mm:g} mm", f"{100 * p.bias:.2f} %", f"{100 * p.scatter:.2f} %"]
+
+
+def _lines_of_pencil(p: PencilError) -> Iterator[Line]:
+    of = {"subject": "graphical", "quantity": p.question, "error_unit": "relative"}
+    for kind, error in (("bias", p.bias), ("scatter", p.scatter)):
+        yield {**of, "error": error, "remark": f"{kind}, pencil {p.sigma_mm:g} mm"}
+
+
+PENCIL_ERRORS = Section(
+    "pencil_errors",
+    say("What a pencil leaves"),
+    "Drawn in 12 parts per phase by many hands: the bias is how far the mean of all drawings is off, with the method's "
+    "own error; the scatter is the standard deviation of one drawing. Both are relative, as in the next table; of a "
+    "curve they are the maxima over its places.",
+    lambda effort: pencil_errors(effort.hands),
+    _texts_of_pencils,
+    _lines_of_pencil,
+    derived=(),
+)
 
 
 @dataclass(frozen=True)
@@ -102,31 +148,6 @@ def budgets(law: str = MAIN_LAW, parts: int = 12) -> Iterator[BudgetRow]:
                 shares = budget.of(name, reading)
                 brought = {kind.value: share for kind, share in shares.of.items()} | {"together": shares.together}
                 yield BudgetRow(follower, name, reading, shares.deviation, brought)
-
-
-def bands(hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
-    """The relative errors between which nine drawings in ten are, with the usual number of parts, by question."""
-    pencil = Pencil.of(SIGMA, hands)
-    fixed, free = scene("translating", MAIN_LAW), free_scene(MAIN_LAW)
-    least = free.chain(parts, pencil)["minimum_radius"].readings["prime_radius"].value
-    errors = {
-        "displacement": shape_errors(fixed, parts, pencil),
-        "minimum prime radius": np.abs(least / free.exact_least_radius().prime_radius - 1),
-        "profile": _profile_errors(fixed, parts, pencil),
-    }
-    return {question: tuple(np.nanpercentile(found, QUANTILES).tolist()) for question, found in errors.items()}
-
-
-def _profile_errors(where: BenchFollower, parts: int, pencil: Pencil) -> Floats:
-    """The maximum distance of a drawing's contact points from the exact profile, relative to the prime radius."""
-    chain = where.chain(parts, pencil)
-    profile = chain["working_profile"]
-    touch = profile.points["touch"] * profile.givens.inverted.givens.mu_l.per_mm
-    near = np.broadcast_to(chain.board.stations.phi, touch.shape)
-    kept = np.isfinite(touch)  # a touch point that another circle covers is not drawn
-    distance = np.zeros(touch.shape)
-    distance[kept] = distance_from_profile(where.cam, touch[kept], near[kept])
-    return distance.max(axis=1) / where.sizes.prime_radius
 
 
 def _texts_of_hands(found: Sequence[Hands], _: float) -> Iterator[list[str]]:

@@ -94,7 +94,7 @@ def _mechanism(module: Any, timer: Timer) -> Iterator[_Told]:
     slower = timer.seconds(lambda: module.Cam(motion=phases, **given)) / timer.seconds(cam.profile, phi)
     yield "displacement", lift, "mm", slower, "its two laws joined: it takes one law for all phases"
     drawn = (BASE + s) * np.exp(1j * (math.pi / 2 - phi))
-    profile = float(distance_from_profile(cam, drawn, nearest_angles(cam, drawn), SEARCH_ANGLE).max())
+    profile = float(np.abs(distance_from_profile(cam, drawn, nearest_angles(cam, drawn), SEARCH_ANGLE)).max())
     yield "working profile", profile, "mm", slower, "no offset and no roller envelope"
     sized = theirs.get_base_circle(
         kind="cycloidal", follower="roller", roller_radius=ROLLER, eccentricity=OFFSET, max_pressure_angle=30

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.bench.bench_followers import LIFT, PERMITTED_ANGLE, BenchFollower
+from graphcam.bench.bench_followers import ARM, LIFT, PERMITTED_ANGLE, BenchFollower
 from graphcam.bench.rivals import optional
 from graphcam.given.boundary_parts import MotionPoint
 from graphcam.given.laws import DECLARED_LAWS, Floats, LawName, law as law_of
@@ -34,17 +34,14 @@ def law_values(law: str, u: Floats) -> Floats:
 
 def profile_points(where: BenchFollower, u: Floats) -> Floats:
     """(n, 2) the working profile at fractions of the rise of a translating follower, rounded from 50 digits."""
-    motion, sizes, lift = where.board.motion, where.sizes, printed_lift(where.law)
-    angle, turn = motion.phases[0].angle, mp.mpc(0, where.cam.sigma)
-    points: list[tuple[float, float]] = []
+    turn, points = mp.mpc(0, where.cam.sigma), list[tuple[float, float]]()
     with mp.workdps(REFERENCE_DIGITS):
-        e, r0 = mp.mpf(sizes.place), mp.mpf(sizes.prime_radius)
         for x in u.tolist():
-            z = mp.mpc(e, mp.sqrt(r0**2 - e**2) + LIFT * lift(mp.mpf(x)))
-            along = mp.mpc(0, LIFT * mp.diff(lift, mp.mpf(x)) / mp.mpf(angle)) - turn * z
-            profile = z - sizes.roller_radius * turn * along / abs(along)
+            z, v, _ = pitch_place(where, 0, mp.mpf(x))
+            along = mp.mpc(0, v) - turn * z
+            profile = z - where.sizes.roller_radius * turn * along / abs(along)
             # The double next to the angle at which the cam itself is asked.
-            profile *= mp.exp(-turn * mp.mpf(float(motion.angle_at(0, x))))
+            profile *= mp.exp(-turn * mp.mpf(float(where.board.motion.angle_at(0, x))))
             points.append((float(profile.real), float(profile.imag)))
     return np.array(points)
 
@@ -65,6 +62,30 @@ def least_radius(where: BenchFollower) -> float:
             heights.append(LIFT * rising(u))
         across, up = (heights[0] - heights[1]) / 2, (heights[0] + heights[1]) / (2 * slope)
         return float(mp.hypot(across, up))
+
+
+def arm_radius(where: BenchFollower) -> float:
+    """The minimum radius where the tangent of the rise meets the line of the rest, rounded from 50 digits."""
+    with mp.workdps(REFERENCE_DIGITS):
+        rise, f, limit = where.board.motion.phases[0], printed_lift(where.law), mp.mpf(where.board.limits.rise)
+
+        def radius(u: Any) -> Any:
+            """How far along the line of the rest the line of the place u meets it [mm]."""
+            s, v = rise.lift * f(u), rise.lift / mp.mpf(rise.angle) * mp.diff(f, u)
+            height = v * mp.cos(limit) - 2 * mp.sin(s / 2) * mp.sin(limit - s / 2)
+            return ARM * height / mp.sin(2 * limit - s)
+
+        u = mp.findroot(partial(mp.diff, radius), (0.05, 0.6), solver="anderson", tol=mp.mpf(10) ** -40)
+        return float(radius(u))
+
+
+def pitch_place(where: BenchFollower, k: int, x: Any) -> tuple[Any, Any, Any]:
+    """The place of a stem's trace point in a phase, and its v and a [mm]."""
+    phase, f, e, r0 = where.board.motion.phases[k], printed_lift(where.law), where.sizes.place, where.sizes.prime_radius
+    back, angle, e = k == 2, mp.mpf(phase.angle), mp.mpf(e)
+    s, *slopes = (LIFT * mp.diff(f, x, n) / angle**n for n in range(3))
+    s, v, a = (LIFT - s, -slopes[0], -slopes[1]) if back else (s, *slopes)
+    return mp.mpc(e, mp.sqrt(mp.mpf(r0) ** 2 - e**2) + s), v, a
 
 
 def conditioned(points: Sequence[MotionPoint], phi: Floats) -> Floats:
@@ -111,6 +132,39 @@ def displacement_eps(where: BenchFollower) -> float | None:
 def least_radius_eps(where: BenchFollower) -> float | None:
     """The error of the minimum radius of the free scene [eps]."""
     return None if mp is None else abs(where.exact_least_radius().prime_radius / least_radius(where) - 1) / EPS
+
+
+def arm_radius_eps(where: BenchFollower) -> float | None:
+    """The error of an arm's minimum radius [eps]."""
+    return None if mp is None else abs(where.exact_least_radius().prime_radius / arm_radius(where) - 1) / EPS
+
+
+def pressure_angle_eps(where: BenchFollower) -> float | None:
+    """The maximum error of the pressure angle on the rise of a translating follower, of its maximum [eps]."""
+    if mp is None:
+        return None
+    with mp.workdps(REFERENCE_DIGITS):
+        at = [pitch_place(where, 0, mp.mpf(x)) for x in INNER.tolist()]
+        exact = np.array([float(mp.atan2(v - where.cam.sigma * z.real, z.imag)) for z, v, _ in at])
+    return rounding(where.cam.pressure_angle(where.board.motion.angle_at(0, INNER)), exact)
+
+
+def curvature_eps(where: BenchFollower) -> float | None:
+    """The error of the minimum radius of curvature of a translating follower [eps], at the place that was found.
+
+    There it hardly changes with the place.
+    """
+    if mp is None:
+        return None
+    (found, phi), motion = where.cam.extremes().min_convex_radius, where.board.motion
+    (k, (_, start, _)) = next((k, span) for k, span in enumerate(motion.timing) if span[1] <= phi <= span[2])
+    with mp.workdps(REFERENCE_DIGITS):
+        z, v, a = pitch_place(where, k, (mp.mpf(phi) - mp.mpf(start)) / mp.mpf(motion.phases[k].angle))
+        turn = mp.mpc(0, where.cam.sigma)
+        first = mp.mpc(0, v) - turn * z
+        second = mp.mpc(0, a) - 2 * turn * mp.mpc(0, v) - z
+        exact = float(abs(first) ** 3 / abs((mp.conj(first) * second).imag))
+    return abs(found / exact - 1) / EPS
 
 
 def profile_eps(where: BenchFollower) -> float | None:

@@ -53,11 +53,25 @@ def integrated(motion: Motion, method: Integrator, n: int) -> list[Floats]:
     return [method(motion.angle_at(k, u), motion.at(k, u)[2]) for k in (0, 2)]
 
 
-def integrated_error(motion: Motion, method: Integrator, n: int) -> float:
-    """The maximum error of s over both, relative to the lift."""
-    exact = [motion.at(k, np.linspace(0, 1, n + 1))[0] for k in (0, 2)]
-    off = [s[0] + found - s for s, found in zip(exact, integrated(motion, method, n), strict=True)]
-    return float(np.abs(off).max()) / motion.lift
+def rises(motion: Motion, n: int) -> list[Floats]:
+    """The exact values of the same."""
+    return [s - s[0] for s in (motion.at(k, np.linspace(0, 1, n + 1))[0] for k in (0, 2))]
+
+
+# --- derivatives by differences ---------------------------------------------------------------------------------------
+
+
+def pressure_angles(s: Floats, phi: Floats, s0: float, offset: float) -> Floats:
+    """The pressure angles [rad] of a translating follower, v by differences: their tangent is (v - e)/(s0 + s)."""
+    return np.arctan2(np.gradient(s, phi) - offset, s0 + s)
+
+
+def min_convex_radius(pitch: Floats, phi: Floats) -> float:
+    """The minimum radius of curvature of convex parts of points (n, 2) in order, both derivatives by differences."""
+    z = pitch @ [1, 1j]
+    z1 = np.gradient(z, phi)
+    bent = (z1.conj() * np.gradient(z1, phi)).imag / np.abs(z1) ** 3
+    return 1 / float(np.max(bent * np.sign(np.sum(bent))))
 
 
 # --- least radius ----------------------------------------------------------------------------------------------------

@@ -32,6 +32,7 @@ class BenchRow:
         in "<= 5 µs", else the ratio; "" for none
     error_eps : the rounding, None where it was not held against more digits
     seconds : on this machine, for the tables alone; NaN where nothing was timed
+    missing : what stands in the way of the goal, where this is known
     """
 
     name: str
@@ -41,6 +42,7 @@ class BenchRow:
     goal: str = ""
     error_eps: float | None = None
     seconds: float = math.nan
+    missing: str = ""
 
     @property
     def goal_met(self) -> bool | None:
@@ -57,18 +59,39 @@ class BenchRow:
         """
         if not self.goal:
             return None
-        read = GOAL.fullmatch(self.goal)
-        if read is None or read["unit"] not in (None, self.unit, *SECONDS_BY_UNIT):
-            raise ValueError(f"the goal {self.goal!r} of {self.name!r} cannot be read")
-        figure = self.seconds / SECONDS_BY_UNIT[read["unit"]] if read["unit"] in SECONDS_BY_UNIT else self.ratio
-        limit = float(read["limit"])
-        match read["sense"]:
+        figure, sense, limit = self._against_goal()
+        match sense:
             case "<=":
                 return figure <= limit
             case ">=":
                 return figure >= limit
             case middle:
                 return abs(figure - float(middle.removesuffix(" ±"))) <= limit
+
+    def _against_goal(self) -> tuple[float, str, float]:
+        """The figure that the goal is about, and the goal's sense and limit."""
+        read = GOAL.fullmatch(self.goal)
+        if read is None or read["unit"] not in (None, self.unit, *SECONDS_BY_UNIT):
+            raise ValueError(f"the goal {self.goal!r} of {self.name!r} cannot be read")
+        figure = self.seconds / SECONDS_BY_UNIT[read["unit"]] if read["unit"] in SECONDS_BY_UNIT else self.ratio
+        return figure, read["sense"], float(read["limit"])
+
+    @property
+    def verdict(self) -> str:
+        """Whether the goal is met, and how far off is one that is not.
+
+        >>> BenchRow("law", "f", 0.8, "SC(360)", "<= 0.5").verdict
+        'no: 1.6 times'
+        """
+        if self.goal_met is not False:
+            return "yes" if self.goal_met else ""
+        figure, sense, limit = self._against_goal()
+        return f"no: {figure / limit:.2g} times" if limit and sense in ("<=", ">=") else "no"
+
+    @property
+    def explanation(self) -> str:
+        """What was measured, and where its goal is missed what stands in the way."""
+        return f"{self.what}; {self.missing}" if self.missing and self.goal_met is False else self.what
 
 
 @dataclass(frozen=True)
@@ -78,9 +101,11 @@ class Unit:
     name: str
     seconds: float
 
-    def row(self, name: str, what: str, seconds: float, goal: str = "", error_eps: float | None = None) -> BenchRow:
+    def row(
+        self, name: str, what: str, seconds: float, goal: str = "", error_eps: float | None = None, missing: str = ""
+    ) -> BenchRow:
         """A time [s] in this unit."""
-        return BenchRow(name, what, seconds / self.seconds, self.name, goal, error_eps, seconds)
+        return BenchRow(name, what, seconds / self.seconds, self.name, goal, error_eps, seconds, missing)
 
 
 MILLISECONDS = Unit("ms", 1e-3)
@@ -137,21 +162,17 @@ def time_text(seconds: float) -> str:
     return f"{seconds / SECONDS_BY_UNIT[unit]:.3g} {unit}"
 
 
-def _told(met: bool | None) -> str:
-    return "" if met is None else "yes" if met else "no"
-
-
 def _texts_of_rows(rows: Sequence[BenchRow], _: float) -> Iterator[list[str]]:
     yield ["what", "of what", "ratio", "goal", "goal met", "here", "eps"]
     for r in rows:
         ratio, rounding = f"{r.ratio:.3g} {r.unit}", "" if r.error_eps is None else f"{r.error_eps:.1f}"
-        yield [r.name, r.what, ratio, r.goal, _told(r.goal_met), time_text(r.seconds), rounding]
+        yield [r.name, r.explanation, ratio, r.goal, r.verdict, time_text(r.seconds), rounding]
 
 
 def _line_of_row(r: BenchRow) -> Iterator[Line]:
     """The line of a measured figure in the long table, with its goal."""
     found = {"error": r.error_eps, "error_unit": "eps", "ratio": r.ratio, "ratio_unit": r.unit}
-    yield {"subject": r.name, "quantity": r.what, **found, "goal": r.goal, "goal_met": _told(r.goal_met)}
+    yield {"subject": r.name, "quantity": r.what, **found, "goal": r.goal, "goal_met": r.verdict.partition(":")[0]}
 
 
 @dataclass(frozen=True)
@@ -174,7 +195,7 @@ class Section:
     measured: Callable[[Effort], Iterable[Any]]
     texts: Callable[[Sequence[Any], float], Iterable[list[str]]] = _texts_of_rows
     lines: Callable[[Any], Iterable[Line]] = _line_of_row
-    derived: tuple[str, ...] = ("goal_met",)
+    derived: tuple[str, ...] = ("goal_met", "verdict")
     words: int = 2
     brief: bool = True
 

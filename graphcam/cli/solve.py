@@ -107,6 +107,17 @@ def _size_caption(name: Words, value: float, of: Words, where: Words) -> Caption
     return say("{name} {value:.7g} {unit} ({where})", name=name, value=told, unit=of, where=where)
 
 
+@contextmanager
+def _garbage_collector_off() -> Generator[None]:
+    """Switch the garbage collector off, since nearly nothing that is loaded and drawn becomes garbage meanwhile."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
+
+
+@_garbage_collector_off()
 def solve(
     task: TaskFile = None,
     out: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = None,
@@ -150,7 +161,7 @@ def solve(
     voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
-    with input_errors(), short_warnings(), _garbage_collector_off():
+    with input_errors(), short_warnings():
         last = _last_step(upto, worksheet=worksheet)
         given = _read_task(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
@@ -180,16 +191,6 @@ def solve(
     _print_solution(document, folder, solution.warnings if finished else (), sizes, as_json=as_json)
     if folder is not None and finished and not (as_json or per_construction):
         _print_hint(solution, folder)
-
-
-@contextmanager
-def _garbage_collector_off() -> Generator[None]:
-    """Switch the garbage collector off, since nearly nothing that is loaded and drawn becomes garbage meanwhile."""
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
 
 
 def _read_task(path: Path | None, divisions: int | None, language: str | None, *, small: bool) -> Task | ArcsTask:

@@ -169,6 +169,8 @@ LIMIT_NAMES = {
     "return": say("permitted pressure angle on the return"),
 }
 """What an error calls a limit, by its name."""
+AN_ANGLE, ITS_REMEDY = say("an angle in rad"), say("30 degrees are math.radians(30)")
+CURVATURE_NAME = say("minimum radius of curvature")
 
 
 @dataclass(frozen=True)
@@ -200,9 +202,9 @@ class Limits:
 
     def __post_init__(self) -> None:
         back = self.return_
-        check_positive(say("minimum radius of curvature"), self.curvature, "mm")
+        check_positive(CURVATURE_NAME, self.curvature, "mm")
         for name, angle in (("rise", self.rise), ("return", 0.0 if back is None else back)):
-            check_kind(LIMIT_NAMES[name], angle, Real, say("an angle in rad"), say("30 degrees are math.radians(30)"))
+            check_kind(LIMIT_NAMES[name], angle, Real, AN_ANGLE, ITS_REMEDY)
         if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):
             name, value = ("return", back) if 0 < self.rise < QUARTER_TURN else ("rise", self.rise)
             given, limit = math.degrees(value or 0.0), say("between 0 and 90 degrees, both excluded")

@@ -163,18 +163,18 @@ class Piecewise:
     def _write_alike(self, formula: Formula, number: NDArray[np.intp], t: Floats, out: Floats) -> None:
         """Write the values of one formula, each in the units of its own piece."""
         origins, lengths = self._places
-        x = t - origins.take(number)
-        x /= lengths.take(number)
-        _write(out, formula(x), (unit.take(number) for unit in self._units))
+        # Pieces of one length may be seen from either end; what all have in common need not be looked up.
+        x = np.abs(t - origins.take(number))
+        x /= _looked_up(np.abs(lengths), number)
+        _write(out, formula(x), (_looked_up(unit, number) for unit in self._units))
 
     def _bring_in_order(self, number: NDArray[np.uint8], t: Floats, out: Floats) -> None:
         """Write the values at t, a piece at a time."""
         order = np.argsort(number, kind="stable")
         place, ordered = np.empty_like(order), np.empty_like(out)
         place[order] = np.arange(t.size)
-        _slice(
-            self._pieces_met(np.searchsorted(number[order], np.arange(1, len(self.pieces))), t.size), t[order], ordered
-        )
+        cuts = np.searchsorted(number.take(order), np.arange(1, len(self.pieces)))
+        _slice(self._pieces_met(cuts, t.size), t.take(order), ordered)
         for row, values in zip(out, ordered, strict=True):
             values.take(place, out=row, mode="clip")
 
@@ -182,6 +182,12 @@ class Piecewise:
         """The pieces that n values in order lie in, and which of them lie in each."""
         ends = pairwise([0, *cuts.tolist(), n])
         return [(piece, slice(*here)) for piece, here in zip(self.pieces, ends, strict=True) if here[0] < here[1]]
+
+
+def _looked_up(sizes: Floats, number: NDArray[np.intp]) -> Floats | float:
+    """The sizes of the pieces of those numbers; of sizes that are all alike the one."""
+    first = sizes.item(0)
+    return first if (sizes == first).all() else sizes.take(number)
 
 
 def _slice(met: list[tuple[Piece, slice]], t: Floats, out: Floats) -> None:

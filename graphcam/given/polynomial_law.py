@@ -30,9 +30,14 @@ MAX_BLOW = 0.001
 
 
 def leg_law(
-    name: str, leg: PiecewisePolynomial, *, trusted: bool = True, blows: tuple[float, float] = (0.0, 0.0)
+    name: str,
+    leg: PiecewisePolynomial,
+    *,
+    trusted: bool = True,
+    blows: tuple[float, float] = (0.0, 0.0),
+    peaks: tuple[float, float] | None = None,
 ) -> tuple[float, Law]:
-    """The signed lift of what leads from rest to rest, and its normalised law.
+    """The signed lift of what leads from rest to rest, and its normalised law, with its peaks where they are known.
 
     Those of the first half are series in u, those of the second in 1 - u, so that little lift keeps its digits.
     """
@@ -60,7 +65,8 @@ def leg_law(
     formulas = [shared[k] for k in np.cumsum([0, *jumps]).tolist()]
     edges, middle_edge = ((places - start) / angle).tolist(), (middle - start) / angle
     seams = (middle_edge,) if seamed else ()
-    return lift, Law(name, formulas, edges, middle=middle_edge, trusted=trusted, seams=seams, blows=blows)
+    law = Law(name, formulas, edges, middle=middle_edge, peaks=peaks, trusted=trusted, seams=seams, blows=blows)
+    return lift, law
 
 
 def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by conditions") -> Law:
@@ -144,4 +150,6 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     line = PiecewisePolynomial.of([v * start / 2, v], start, 1 - end)
     back = blend.seen(1 / end, -1 / end, 1 / (v * end), -1 / (v * end))
     blows = (start if start < MAX_BLOW else 0.0, end if end < MAX_BLOW else 0.0)
-    return leg_law(CONSTANT_VELOCITY, PiecewisePolynomial.joined([up, line, back]), blows=blows)[1]
+    # Every blend is steepest in its middle; of a series there the digits that cancel would add to the velocity.
+    peaks = v, v * (1.0, 1.5, 1.875)[smooth - 1] / min(start, end)
+    return leg_law(CONSTANT_VELOCITY, PiecewisePolynomial.joined([up, line, back]), blows=blows, peaks=peaks)[1]

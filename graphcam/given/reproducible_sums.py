@@ -23,6 +23,16 @@ def ordered_sum(values: Floats) -> Floats:
     return np.cumsum(values, axis=-1)[..., -1]
 
 
+def column_sums(values: Floats) -> Floats:
+    """The sums over the rows of a table, (n, m), each of its columns as :func:`ordered_sum` adds it.
+
+    >>> column_sums(np.array([[1e16, 1.0], [1.0, 1.0], [1.0, 1e16]])).tolist()
+    [1e+16, 1.0000000000000002e+16]
+    """
+    # Row after row, many columns at a time, is several times as fast; np.sum adds a single column in another order.
+    return np.add.reduce(values, axis=0) if values.shape[1] > 1 else ordered_sum(values.T)
+
+
 def powers(x: Floats | float, highest: int) -> Floats:
     """1, x, x^2, ... to the highest power, (highest + 1, ...), each the one before times x.
 

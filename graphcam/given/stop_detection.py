@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
-from graphcam.given.reproducible_sums import ordered_sum
+from graphcam.given.reproducible_sums import column_sums, ordered_sum
 
 MAX_STOP_ROWS, MIN_WAY_ROWS = 512, 32
 """Of more rows about a stop the means of neighbours are looked at, which tell as much where so many lie on its way."""
@@ -30,6 +30,8 @@ FLAT_PENALTIES, LONG_REST_SHARE = np.array([0.0, 8.0, 14.0]), 0.2
 """... to which a flat turning adds this by its powers, beside a rest over such a part of the rows or more."""
 ROW_SNAP = 4.0
 """A rest ends at a row if that adds no more than this to the sum of squares [variances of the noise]."""
+MAX_TABLE = 2**16
+"""Rows times places of which fewer are looked at at once, so that they are near at hand in the machine's memory."""
 NEGLIGIBLE_ANGLE, SINGULAR_DETERMINANT = 1e-9, 1e-12
 """A way [rad] of less is none; a determinant of less than this beside its terms says that rows are missing."""
 
@@ -89,12 +91,20 @@ class StopRows:
     def leaving(self, side: int, places: Floats, since: Floats, powers: Floats) -> _Squares:
         """The least squares of rows from ``since`` on, for a motion that leaves at the places; backwards before 0."""
         x, y = (self.x, self.y) if side else (-self.x[::-1], self.y[::-1])
-        way = np.maximum(x[-1] - places, NEGLIGIBLE_ANGLE)[:, None]
-        z = np.maximum(x - places[:, None], 0.0) / way
-        rows = (x >= since[:, None]).astype(np.float64)
+        on_way = np.searchsorted(x, places.min(), side="right")
+        if places.size * (x.size - on_way) > MAX_TABLE:
+            order = np.argsort(places)
+            parts = (self.leaving(side, places[k], since[k], powers[k]) for k in np.array_split(order, 2))
+            return _Squares(*np.concatenate([*parts], axis=1)[:, np.argsort(order)])
+        way = np.maximum(x[-1] - places, NEGLIGIBLE_ANGLE)
+        # Rows before all places add nothing but to the sums of 1, y and y^2, which begin at few rows.
+        begins, begin = np.unique(np.searchsorted(x, since), return_inverse=True)
+        levels = np.stack([np.ones(x.size), y, y * y])
+        ones = np.stack([ordered_sum(levels[:, k:]) for k in begins.tolist()], axis=1)[:, begin]
+        z = np.maximum(x[on_way:, None] - places, 0.0) / way
         square = z * z
-        first = rows * np.choose(powers[:, None] - END_POWERS[0], [square, square * z, square * square])
-        return _least_squares(np.stack([rows, first, first * z]), y, self.directions[side], powers)
+        first = square * np.choose(powers - END_POWERS[0], [1.0, z, square])
+        return _least_squares(ones, first, first * z, y[on_way:, None], self.directions[side], powers)
 
 
 class _Squares(NamedTuple):
@@ -202,14 +212,15 @@ def _at_row(rows: StopRows, side: int, end: float, power: int, level: float) -> 
     return float(squares[k]), float(places[k])
 
 
-def _least_squares(columns: Floats, y: Floats, direction: int, powers: Floats) -> _Squares:
+def _least_squares(ones: Floats, first: Floats, second: Floats, y: Floats, direction: int, powers: Floats) -> _Squares:
     """The sums of squares for the columns 1, z^p, z^(p + 1); infinite where these would lead the other way.
 
-    columns : (3, m, n), zero in rows that do not count
+    ones : (3, m) the sums of 1, y and y^2
+    first, second, y : (n, m), (n, m) and (n, 1), without rows that are zero in all columns
     """
-    one, first, second = columns
-    (n, p, q), (y_n, y_p, y_q) = ordered_sum(columns), ordered_sum(columns * y)
-    a, b, c = ordered_sum(first * first), ordered_sum(first * second), ordered_sum(second * second)
+    n, y_n, y_y = ones
+    p, q, y_p, y_q = (column_sums(column) for column in (first, second, first * y, second * y))
+    a, b, c = (column_sums(column) for column in (first * first, first * second, second * second))
     determinant = a * c - b * b
     sound = determinant > SINGULAR_DETERMINANT * a * c
     determinant = np.where(sound, determinant, 1.0)
@@ -222,5 +233,5 @@ def _least_squares(columns: Floats, y: Floats, direction: int, powers: Floats) -
     level = (y_n - (level_p * y_p + level_q * y_q)) / weight
     times_p, times_q = direction * (rows_p - level_p * level), direction * (rows_q - level_q * level)
     sound &= (times_p > 0) & (powers * times_p + (powers + 1) * times_q > 0)
-    least = ordered_sum(one * (y * y)) - (rows_p * y_p + rows_q * y_q) - weight * level**2
+    least = y_y - (rows_p * y_p + rows_q * y_q) - weight * level**2
     return _Squares(np.where(sound, np.maximum(least, 0.0), np.inf), weight, level)

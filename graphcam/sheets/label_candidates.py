@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.model import Angle, Box, Length, Source, Text
+from graphcam.sheets.model import Angle, Length, Source, Text
 from graphcam.sheets.text_measures import extent
 
 Floats = NDArray[np.float64]
@@ -41,7 +41,7 @@ class LabelText:
     bound : whether the text belongs to a line, not to a point: such texts choose first
     of : the dimension to which the text belongs
     source : the act that it names
-    barred : the boxes of other views, which neither the text nor its leader enters
+    barred : (4, b) the left, bottom, right and top of boxes of other views, which neither text nor leader enters
     """
 
     text: str
@@ -53,7 +53,7 @@ class LabelText:
     bound: bool = False
     of: Length | Angle | None = None
     source: Source | None = None
-    barred: tuple[Box, ...] = ()
+    barred: Floats = field(default_factory=lambda: np.empty((4, 0)))
 
     @property
     def size(self) -> complex:

@@ -283,7 +283,8 @@ def _choose(writing: LabelText, paper: Occupancy) -> int:
         part = start + np.flatnonzero(writing.cost[start:end] < least)
         if part.size:
             cost = writing.cost[part] + _letters_cost(writing, part, paper) + _leader_cost(writing, part, paper)
-            cost += _barred_cost(writing, part)
+            if writing.barred.size:
+                cost += _barred_cost(writing, part)
             k = int(np.argmin(cost))
             if cost[k] < least:
                 best, least = int(part[k]), float(cost[k])
@@ -324,20 +325,20 @@ def _crossed_leaders(starts: Points, ends: Points, others: Points, other_ends: P
 
 def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:
     """The costs (k,) of the boxes of other views that the text or its leader enters."""
-    cost, centres, anchors = np.zeros(part.size), writing.centres[part], writing.anchors[part]
+    centres, anchors = writing.centres[part], writing.anchors[part]
     half, led = writing.size / 2, np.isfinite(anchors)
     turned = np.abs(np.sin(writing.angles[part])) > math.sqrt(0.5)
     across, up = np.where(turned, half.imag, half.real), np.where(turned, half.real, half.imag)
-    for box in writing.barred:
-        inside = (centres.real + across > box.left) & (centres.real - across < box.right)
-        inside &= (centres.imag + up > box.bottom) & (centres.imag - up < box.top)
-        if led.any():
-            way = anchors[led][:, None] + LEADER_FRACTIONS * (centres[led] - anchors[led])[:, None]
-            within = (way.real > box.left) & (way.real < box.right) & (way.imag > box.bottom) & (way.imag < box.top)
-            # Where it begins in another view already, a leader leads out of it.
-            inside[led] |= (within & ~within[:, :1]).any(axis=1)
-        cost += BARRED_COST * inside
-    return cost
+    left, bottom, right, top = edges = writing.barred[..., None]
+    inside = (centres.real + across > left) & (centres.real - across < right)
+    inside &= (centres.imag + up > bottom) & (centres.imag - up < top)
+    if led.any():
+        left, bottom, right, top = edges[..., None]
+        way = anchors[led][:, None] + LEADER_FRACTIONS * (centres[led] - anchors[led])[:, None]
+        within = (way.real > left) & (way.real < right) & (way.imag > bottom) & (way.imag < top)
+        # Where it begins in another view already, a leader leads out of it.
+        inside[:, led] |= (within & ~within[..., :1]).any(axis=-1)
+    return BARRED_COST * inside.sum(axis=0)
 
 
 def _leader_end(writing: LabelText, centres: Points, anchors: Points) -> Points:

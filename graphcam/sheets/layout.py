@@ -15,6 +15,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from graphcam.drafting.ink import Step
 from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.formats import Format
@@ -196,7 +198,8 @@ def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
-            barred = tuple(box for name, own in boxes.items() if name != step.view.name for box in own)
+            others = [box for name, own in boxes.items() if name != step.view.name for box in own]
+            barred = np.array([(box.left, box.bottom, box.right, box.top) for box in others]).reshape(-1, 4).T
             for marks, since in ((step.given + (step.under if panel.lowest else ()), 0), (step.own_marks, number)):
                 if marks or since:
                     entities, writings = expand(marks, Placement(origin), panel.letters)

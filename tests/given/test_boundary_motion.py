@@ -331,6 +331,17 @@ def test_the_law_of_constant_velocity_passes_the_check_of_laws(blends, smooth):
     assert law.reversed(0.5)[1] == pytest.approx(law(0.5)[1], rel=1e-14)
 
 
+def test_the_peaks_of_constant_velocity_are_those_of_its_curves_to_the_last_digits():
+    random = np.random.default_rng(4)
+    for start, end in random.uniform(0.02, 0.45, (20, 2)).tolist():
+        for smooth in (1, 2, 3):
+            law = gc.constant_velocity_law(start, end, smooth)
+            assert law.peak_velocity == pytest.approx(2 / (2 - start - end), rel=2e-16)
+            u = np.concatenate([np.linspace(0, start, 2001), np.linspace(1 - end, 1, 2001)])
+            highest = max(np.abs(law(u, side=side)[2]).max() for side in ("left", "right"))
+            assert law.peak_acceleration == pytest.approx(highest, rel=1e-12)
+
+
 def test_a_law_of_several_parts_and_of_a_return():
     parts = [Poly([P(0, s=5, v=0, a=0), P(1, s=3, v=-3)]), Poly([P(1, s=3, v=-3), P(2, s=0, v=0, a=0)])]
     law = gc.boundary_law(parts, "down")

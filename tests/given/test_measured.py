@@ -20,6 +20,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.measured import RowError, integrated_motion, measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
+from graphcam.given.reproducible_sums import column_sums, ordered_sum
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
 
@@ -329,3 +330,10 @@ def test_every_digit_is_that_of_another_processor(other):
         return subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
 
     assert fitted(**other) == fitted()
+
+
+def test_sums_of_many_columns_have_the_digits_of_sums_of_one():
+    random = np.random.default_rng(8)
+    for shape in ((1, 3), (7, 1), (9, 2), (130, 1), (1000, 13), (2000, 117)):
+        values = random.standard_normal(shape) * 10.0 ** random.integers(-9, 9, shape)
+        assert column_sums(values).tolist() == [ordered_sum(column) for column in values.T.copy()]
