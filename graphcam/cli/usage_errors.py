@@ -96,7 +96,10 @@ def _error(error: Any, words: tuple[str, ...]) -> DesignError:
     if kind == "BadParameter" and error.param is not None:
         return _wrong_value(error, _typed(error.param, words), hint)
     if message.startswith("No such command"):
-        return DesignError(say("the command"), named, *choice_limit(named, context.command.list_commands(context)))
+        limit, near = choice_limit(named, context.command.list_commands(context))
+        is_task = Path(named).suffix == ".toml"
+        told = say("write {word}", word=f"graphcam solve {named}") if is_task else near
+        return DesignError(say("the command"), named, limit, told)
     return DesignError(named or say("the command"), say("one argument too many"), say("left out"), hint)
 
 

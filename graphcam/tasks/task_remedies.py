@@ -178,7 +178,8 @@ _TWICE_PATTERN = re.compile(r"Cannot declare \(.*\) twice|Cannot overwrite a val
 
 _TABLE_PATTERN = re.compile(r"\s*\[\[?[\w.]+\]\]?\s*")
 _COMMENT_PATTERN = re.compile(r"(?:^|\s)(//|--|%)\s*(.*)$")
-_KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=")
+_KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=|^\s*\[\[?\s*([^\W\d]\w*)\s*\]")
+"""A key, or the name of a table."""
 _OPEN_TEXT_PATTERN = re.compile(r'"([^\s",}]+)(?=\s*[,}]|\s*$)')
 
 
@@ -206,13 +207,14 @@ def _comment(line: str, place: Words) -> LineFault | None:
 def _key(line: str, place: Words) -> LineFault | None:
     """The fault of a key in letters that are not Latin."""
     for found in _KEY_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub(lambda text: "_" * len(text[0]), line)):
-        if not found[1].isascii():
-            meant = (*names_of(found[1], "keys"), "")[0]
-            told = say("{place}: the key", place=place), bare_caption(found[1]), say("in Latin letters")
+        key, (start, end) = found[1] or found[2], found.span(found.lastindex or 0)
+        if not key.isascii():
+            meant = (*names_of(key, "keys"), "")[0]
+            told = say("{place}: the key", place=place), bare_caption(key), say("in Latin letters")
             remedy = (
                 say("did you mean '{close}'?", close=meant) if meant else say("'graphcam init FILE' names the keys")
             )
-            return (*told, remedy), line[: found.start(1)] + (meant or f'"{found[1]}"') + line[found.end(1) :]
+            return (*told, remedy), line[:start] + (meant or f'"{key}"') + line[end:]
     return None
 
 
