@@ -121,7 +121,8 @@ def _wrong_value(error: Any, typed: str, hint: Words) -> DesignError:
     if most is not None:
         limit = say("a number from {least:g} to {most:g}", least=least, most=most)
         with suppress(ValueError):
-            return DesignError(name, float(typed), limit, hint)
+            float(typed)
+            return DesignError(name, bare_caption(typed), limit, hint)
     unit = _UNIT_PATTERN.fullmatch(typed)
     if unit:
         return DesignError(name, typed, limit, say("write {word}", word=unit[1]))

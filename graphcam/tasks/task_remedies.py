@@ -180,6 +180,7 @@ _TABLE_PATTERN = re.compile(r"\s*\[\[?[\w.]+\]\]?\s*")
 _COMMENT_PATTERN = re.compile(r"(?:^|\s)(//|--|%)\s*(.*)$")
 _KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=|^\s*\[\[?\s*([^\W\d]\w*)\s*\]")
 """A key, or the name of a table."""
+_OPEN_HEADER_PATTERN = re.compile(r"\s*\[\s*([a-z_]+)\s*(?=#|$)")
 _OPEN_TEXT_PATTERN = re.compile(r'"([^\s",}]+)(?=\s*[,}]|\s*$)')
 
 
@@ -215,6 +216,15 @@ def _key(line: str, place: Words) -> LineFault | None:
                 say("did you mean '{close}'?", close=meant) if meant else say("'graphcam init FILE' names the keys")
             )
             return (*told, remedy), line[:start] + (meant or f'"{key}"') + line[end:]
+    return None
+
+
+def _header(line: str, place: Words) -> LineFault | None:
+    """The fault of a table's name without its second bracket."""
+    if found := _OPEN_HEADER_PATTERN.match(line):
+        written, rest = f"[{found[1]}]", line[found.end() :]
+        told = say("{place}: the table", place=place), bare_caption(f"[{found[1]}"), say("closed by ]")
+        return (*told, say("write {word}", word=written)), written + rest
     return None
 
 
@@ -330,7 +340,7 @@ def _value(line: str, place: Words) -> LineFault | None:
     return None
 
 
-_LINE_FAULTS = _typography, _comment, _key, _quotes, _comma, _value, _colon
+_LINE_FAULTS = _typography, _comment, _key, _header, _quotes, _comma, _value, _colon
 """What finds the fault of a line, in this order."""
 
 

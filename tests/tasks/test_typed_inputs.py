@@ -42,6 +42,7 @@ def told(tmp_path: Path, text: str) -> str:
             "line 2: the key is частота, .* Latin letters; did you mean 'speed_rpm'",
         ),
         ("[motion]", "[движение]", "line 3: the key is движение, .* Latin letters; did you mean 'motion'"),
+        ("[motion]", "[motion # of the follower", r"line 3: the table is \[motion, .* closed by \]; write \[motion\]"),
         ("lift = 30", 'lift = "25,5 мм"', 'lift of phase 1 .*; write "25.5 mm"'),
         ("speed_rpm = 120", 'speed_rpm = "2 Гц"', 'speed_rpm .*; write "2 Hz"'),
         ("[follower]", "[[answers]]\n[follower]", "the file is an exercise, .*; 'graphcam exercise make' takes it"),
