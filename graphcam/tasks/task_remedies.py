@@ -164,6 +164,11 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[
             key=line.strip() if line.lstrip().startswith("[") else twice[1] or line.partition("=")[0].strip(),
         )
         return number, TaskError(path, what, say("given twice"), say("given once"), say("delete one of the two")), ""
+    if line.lstrip().startswith("{") and lines[number - 2].rstrip().endswith("}"):
+        entry, mended = say("line {number}: the entry", number=number - 1), [*lines]
+        mended[number - 2] = f"{lines[number - 2].rstrip()},"
+        limit, remedy = say("followed by a comma"), say("write a comma behind its }}")
+        return number - 1, TaskError(path, entry, bare_caption("{ ... }"), limit, remedy), "\n".join(mended)
     shown = line.strip()
     shown = shown if len(shown) <= _MAX_SHOWN_LENGTH else shown[:_MAX_SHOWN_LENGTH] + "..."
     expected = say("TOML ({why})", why=f"{why[:1].lower()}{why[1:]}")
@@ -180,7 +185,18 @@ _TABLE_PATTERN = re.compile(r"\s*\[\[?[\w.]+\]\]?\s*")
 _COMMENT_PATTERN = re.compile(r"(?:^|\s)(//|--|%)\s*(.*)$")
 _KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=|^\s*\[\[?\s*([^\W\d]\w*)\s*\]")
 """A key, or the name of a table."""
-_OPEN_HEADER_PATTERN = re.compile(r"\s*\[\s*([a-z_]+)\s*(?=#|$)")
+_PUNCTUATION = (
+    (r"(?P<shown>\s*\[\s*[a-z_]+)", say("the table"), say("closed by ]"), say("write ] behind its end"), r"\g<shown>]"),
+    (
+        *(r"(\s*\w+\s*=\s*)(?P<shown>\"[^\"]*\"|[\w.+-]+)\s*,", say("the value")),
+        *(say("without a comma"), say("delete the comma"), r"\1\g<shown>"),
+    ),
+    (
+        *(r"(?P<shown>\s*\{[^{}#]*[^{}#,\s])\s*,?", say("the entry"), say("closed by }}")),
+        *(say("write }} behind its end, on the same line"), r"\g<shown> },"),
+    ),
+)
+"""Lines that lack a sign or have one too many: pattern, what it is, what it must be, remedy, and what is meant."""
 _OPEN_TEXT_PATTERN = re.compile(r'"([^\s",}]+)(?=\s*[,}]|\s*$)')
 
 
@@ -216,15 +232,6 @@ def _key(line: str, place: Words) -> LineFault | None:
                 say("did you mean '{close}'?", close=meant) if meant else say("'graphcam init FILE' names the keys")
             )
             return (*told, remedy), line[:start] + (meant or f'"{key}"') + line[end:]
-    return None
-
-
-def _header(line: str, place: Words) -> LineFault | None:
-    """The fault of a table's name without its second bracket."""
-    if found := _OPEN_HEADER_PATTERN.match(line):
-        written, rest = f"[{found[1]}]", line[found.end() :]
-        told = say("{place}: the table", place=place), bare_caption(f"[{found[1]}"), say("closed by ]")
-        return (*told, say("write {word}", word=written)), written + rest
     return None
 
 
@@ -308,6 +315,15 @@ def _colon(line: str, place: Words) -> LineFault | None:
     return None
 
 
+def _punctuation(line: str, place: Words) -> LineFault | None:
+    """The fault of a table's name or an entry of a list that is not closed, or of a comma behind a line."""
+    for pattern, what, limit, remedy, mended in _PUNCTUATION:
+        if found := re.fullmatch(rf"{pattern}\s*(?:#.*)?", line):
+            told = say("{place}: {what}", place=place, what=what), bare_caption(found["shown"].strip())
+            return (*told, limit, remedy), found.expand(mended)
+    return None
+
+
 def _value(line: str, place: Words) -> LineFault | None:
     """The fault of a text without quotes, of a number with its unit, or of a semicolon."""
     blank = _STRING_OR_COMMENT_PATTERN.sub(lambda text: "'" + "_" * (len(text[0]) - 2) + "'", line)
@@ -340,7 +356,7 @@ def _value(line: str, place: Words) -> LineFault | None:
     return None
 
 
-_LINE_FAULTS = _typography, _comment, _key, _header, _quotes, _comma, _value, _colon
+_LINE_FAULTS = _typography, _comment, _key, _quotes, _comma, _value, _colon, _punctuation
 """What finds the fault of a line, in this order."""
 
 
