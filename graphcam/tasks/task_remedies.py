@@ -150,10 +150,7 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
     where = say("line {number}", number=number)
-    told = next(
-        filter(None, (find(line, where) for find in _LINE_FAULTS)),
-        None,
-    )
+    told = next(filter(None, (find(line, where) for find in _LINE_FAULTS)), None)
     if told is not None:
         mended = "\n".join([*lines[: number - 1], told[1], *lines[number:]])
         return number, TaskError(path, *told[0]), mended
@@ -268,16 +265,13 @@ def _typography(line: str, place: Words) -> LineFault | None:
 
 def _plain(line: str) -> str:
     """A line with the plain characters of the keyboard, texts in quotes and comments as they are."""
-    kept, end = "", 0
-    for text in _STRING_OR_COMMENT_PATTERN.finditer(line):
-        kept += "".join(map(_keyboard_character, line[end : text.start()])) + text[0]
-        end = text.end()
-    return kept + "".join(map(_keyboard_character, line[end:]))
+    kept_or_letter = rf"({_STRING_OR_COMMENT_PATTERN.pattern})|."
 
+    def plain(found: re.Match[str]) -> str:
+        meant = None if found[1] else _plain_character(found[0])
+        return found[0] if meant is None else meant
 
-def _keyboard_character(letter: str) -> str:
-    plain = _plain_character(letter)
-    return letter if plain is None else plain
+    return re.sub(kept_or_letter, plain, line)
 
 
 def _plain_character(letter: str) -> str | None:

@@ -55,7 +55,7 @@ def told(tmp_path: Path, text: str) -> str:
         (
             "angle = 45 }",
             "angle = 45",
-            'line 6: the entry is { kind = "dwell", angle = 45, but must be closed by }; write } behind its end, on the same line',
+            'line 6: the entry is { kind = "dwell", angle = 45, but must be closed by }; write } behind its end, on',
         ),
         ("angle = 45 },", "angle = 45 }", r"line 6: the entry is .* followed by a comma; write a comma behind its }"),
         ("lift = 30", 'lift = "25,5 мм"', 'lift of phase 1 .*; write "25.5 mm"'),
