@@ -96,7 +96,10 @@ def _error(error: Any, words: tuple[str, ...]) -> DesignError:
     if kind == "BadParameter" and error.param is not None:
         return _wrong_value(error, _typed(error.param, words), hint)
     if message.startswith("No such command"):
-        return DesignError(say("the command"), named, *choice_limit(named, context.command.list_commands(context)))
+        limit, near = choice_limit(named, context.command.list_commands(context))
+        is_task = Path(named).suffix == ".toml"
+        told = say("write {word}", word=f"graphcam solve {named}") if is_task else near
+        return DesignError(say("the command"), named, limit, told)
     return DesignError(named or say("the command"), say("one argument too many"), say("left out"), hint)
 
 
@@ -118,7 +121,8 @@ def _wrong_value(error: Any, typed: str, hint: Words) -> DesignError:
     if most is not None:
         limit = say("a number from {least:g} to {most:g}", least=least, most=most)
         with suppress(ValueError):
-            return DesignError(name, float(typed), limit, hint)
+            float(typed)
+            return DesignError(name, bare_caption(typed), limit, hint)
     unit = _UNIT_PATTERN.fullmatch(typed)
     if unit:
         return DesignError(name, typed, limit, say("write {word}", word=unit[1]))

@@ -162,7 +162,31 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
         if isinstance(contents.solution, Solution):
             check_profile_size(contents.solution)
             check_given_sizes(contents.solution.task)
+            _check_enlarged_radius(contents.solution)
         raise
+
+
+def _check_enlarged_radius(solution: Solution) -> None:
+    """Check that no roller, bore or permitted curvature asks for a prime radius whose views fit no page.
+
+    Raises
+    ------
+    DesignError : one does
+    """
+    chain, task = solution.chain, solution.task
+    if len(chain.trials) < 2:
+        return
+    roller, permitted = chain.board.roller_radius or 0.0, chain.board.min_profile_radius or 0.0
+    first, bore = chain.trials[0], task.part and task.part.bore
+    if bore and first.too_thin > first.too_sharp:
+        field, size = "part.bore", bore
+    else:
+        field = "follower.roller_radius" if roller >= permitted else "limits.min_curvature_radius"
+        size = max(roller, permitted)
+    sheet = format_of(task.drawing).description
+    limit = say("small enough for a cam whose views fit on {sheet}", sheet=sheet)
+    remedy = say("the prime radius found for it is {radius:g} mm", radius=chain.prime_radius)
+    raise DesignError(field, say("{length:g} mm", length=size), limit, remedy)
 
 
 def contents_of(solution: AnySolution) -> Contents:

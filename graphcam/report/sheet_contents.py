@@ -11,7 +11,7 @@ import numpy as np
 
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import ratio_text, unit
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, suggestion
 from graphcam.mechanism.cam import Cam
 from graphcam.report.sheet_data import comparison, conditions_on_sheet, data, phases_at_speed
 from graphcam.sheets.layout import Numbered, SheetPart
@@ -63,7 +63,7 @@ class Contents:
             return upto
         limit = say("a number of steps from 0 to {steps}, or one of {names}, or a step such as 2.1")
         limit = limit.with_values(steps=len(self.steps), names=", ".join(last))
-        raise DesignError("upto", upto, limit)
+        raise DesignError("upto", upto, limit, suggestion(str(upto), last))
 
     @property
     def as_one_part(self) -> SheetPart:

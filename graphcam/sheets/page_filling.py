@@ -66,8 +66,8 @@ def _too_large(sheet: Format, panel: Panel) -> TooLargeError:
     sides = say("{width:.0f} × {height:.0f} mm")
     size, most = (sides.with_values(width=w, height=h) for w, h in ((box.width, box.height), best))
     limit = say("at most about {most} on {said}", most=most, said=sheet.description)
-    remedy = say("take a larger format or a smaller scale")
-    return TooLargeError(say("the view {name!r}", name=panel.view.name), size, limit, remedy)
+    remedy = say("take a smaller ordinate, longer poles, a smaller profile_scale or, below A1, a larger format")
+    return TooLargeError(say("the view '{name}'", name=panel.view.title), size, limit, remedy)
 
 
 def min_pages(sheet: Format, views: Sequence[Panel]) -> int:

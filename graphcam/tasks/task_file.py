@@ -342,9 +342,11 @@ def _of_outline(path: str, outline: dict[str, Any], data: dict[str, Any]) -> dic
 
 def _task(path: str, data: dict[str, Any], whole: dict[str, Any], read: ReadToml | None = None) -> Task | ArcsTask:
     """The task that ``whole`` describes; errors use the words of the file's ``data``."""
+    expected = say("a task, with phases of motion: 'graphcam init FILE' writes one")
     if isinstance(motion := data.get("motion"), dict) and "rise_angle" in motion:
-        expected = say("a task, with phases of motion: 'graphcam init FILE' writes one")
         raise TaskError(path, say("the file"), say("a space of designs"), expected, say("'graphcam sweep' takes it"))
+    if isinstance(data.get("answers"), list):
+        raise TaskError(path, say("the file"), say("an exercise"), expected, say("'graphcam exercise make' takes it"))
     arcs = data.get("arcs")
     if isinstance(arcs, dict) and "base_radius" in arcs:
         if "D" in arcs:

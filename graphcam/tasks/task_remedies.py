@@ -150,10 +150,7 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
     where = say("line {number}", number=number)
-    told = next(
-        filter(None, (find(line, where) for find in _LINE_FAULTS)),
-        None,
-    )
+    told = next(filter(None, (find(line, where) for find in _LINE_FAULTS)), None)
     if told is not None:
         mended = "\n".join([*lines[: number - 1], told[1], *lines[number:]])
         return number, TaskError(path, *told[0]), mended
@@ -164,6 +161,11 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[
             key=line.strip() if line.lstrip().startswith("[") else twice[1] or line.partition("=")[0].strip(),
         )
         return number, TaskError(path, what, say("given twice"), say("given once"), say("delete one of the two")), ""
+    if line.lstrip().startswith("{") and lines[number - 2].rstrip().endswith("}"):
+        entry, mended = say("line {number}: the entry", number=number - 1), [*lines]
+        mended[number - 2] = f"{lines[number - 2].rstrip()},"
+        limit, remedy = say("followed by a comma"), say("write a comma behind its }}")
+        return number - 1, TaskError(path, entry, bare_caption("{ ... }"), limit, remedy), "\n".join(mended)
     shown = line.strip()
     shown = shown if len(shown) <= _MAX_SHOWN_LENGTH else shown[:_MAX_SHOWN_LENGTH] + "..."
     expected = say("TOML ({why})", why=f"{why[:1].lower()}{why[1:]}")
@@ -178,7 +180,20 @@ _TWICE_PATTERN = re.compile(r"Cannot declare \(.*\) twice|Cannot overwrite a val
 
 _TABLE_PATTERN = re.compile(r"\s*\[\[?[\w.]+\]\]?\s*")
 _COMMENT_PATTERN = re.compile(r"(?:^|\s)(//|--|%)\s*(.*)$")
-_KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=")
+_KEY_PATTERN = re.compile(r"(?:^|[{,])\s*([^\W\d]\w*)\s*=|^\s*\[\[?\s*([^\W\d]\w*)\s*\]")
+"""A key, or the name of a table."""
+_PUNCTUATION = (
+    (r"(?P<shown>\s*\[\s*[a-z_]+)", say("the table"), say("closed by ]"), say("write ] behind its end"), r"\g<shown>]"),
+    (
+        *(r"(\s*\w+\s*=\s*)(?P<shown>\"[^\"]*\"|[\w.+-]+)\s*,", say("the value")),
+        *(say("without a comma"), say("delete the comma"), r"\1\g<shown>"),
+    ),
+    (
+        *(r"(?P<shown>\s*\{[^{}#]*[^{}#,\s])\s*,?", say("the entry"), say("closed by }}")),
+        *(say("write }} behind its end, on the same line"), r"\g<shown> },"),
+    ),
+)
+"""Lines that lack a sign or have one too many: pattern, what it is, what it must be, remedy, and what is meant."""
 _OPEN_TEXT_PATTERN = re.compile(r'"([^\s",}]+)(?=\s*[,}]|\s*$)')
 
 
@@ -206,13 +221,14 @@ def _comment(line: str, place: Words) -> LineFault | None:
 def _key(line: str, place: Words) -> LineFault | None:
     """The fault of a key in letters that are not Latin."""
     for found in _KEY_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub(lambda text: "_" * len(text[0]), line)):
-        if not found[1].isascii():
-            meant = (*names_of(found[1], "keys"), "")[0]
-            told = say("{place}: the key", place=place), bare_caption(found[1]), say("in Latin letters")
+        key, (start, end) = found[1] or found[2], found.span(found.lastindex or 0)
+        if not key.isascii():
+            meant = (*names_of(key, "keys"), "")[0]
+            told = say("{place}: the key", place=place), bare_caption(key), say("in Latin letters")
             remedy = (
                 say("did you mean '{close}'?", close=meant) if meant else say("'graphcam init FILE' names the keys")
             )
-            return (*told, remedy), line[: found.start(1)] + (meant or f'"{found[1]}"') + line[found.end(1) :]
+            return (*told, remedy), line[:start] + (meant or f'"{key}"') + line[end:]
     return None
 
 
@@ -249,16 +265,13 @@ def _typography(line: str, place: Words) -> LineFault | None:
 
 def _plain(line: str) -> str:
     """A line with the plain characters of the keyboard, texts in quotes and comments as they are."""
-    kept, end = "", 0
-    for text in _STRING_OR_COMMENT_PATTERN.finditer(line):
-        kept += "".join(map(_keyboard_character, line[end : text.start()])) + text[0]
-        end = text.end()
-    return kept + "".join(map(_keyboard_character, line[end:]))
+    kept_or_letter = rf"({_STRING_OR_COMMENT_PATTERN.pattern})|."
 
+    def plain(found: re.Match[str]) -> str:
+        meant = None if found[1] else _plain_character(found[0])
+        return found[0] if meant is None else meant
 
-def _keyboard_character(letter: str) -> str:
-    plain = _plain_character(letter)
-    return letter if plain is None else plain
+    return re.sub(kept_or_letter, plain, line)
 
 
 def _plain_character(letter: str) -> str | None:
@@ -296,6 +309,15 @@ def _colon(line: str, place: Words) -> LineFault | None:
     return None
 
 
+def _punctuation(line: str, place: Words) -> LineFault | None:
+    """The fault of a table's name or an entry of a list that is not closed, or of a comma behind a line."""
+    for pattern, what, limit, remedy, mended in _PUNCTUATION:
+        if found := re.fullmatch(rf"{pattern}\s*(?:#.*)?", line):
+            told = say("{place}: {what}", place=place, what=what), bare_caption(found["shown"].strip())
+            return (*told, limit, remedy), found.expand(mended)
+    return None
+
+
 def _value(line: str, place: Words) -> LineFault | None:
     """The fault of a text without quotes, of a number with its unit, or of a semicolon."""
     blank = _STRING_OR_COMMENT_PATTERN.sub(lambda text: "'" + "_" * (len(text[0]) - 2) + "'", line)
@@ -328,7 +350,7 @@ def _value(line: str, place: Words) -> LineFault | None:
     return None
 
 
-_LINE_FAULTS = _typography, _comment, _key, _quotes, _comma, _value, _colon
+_LINE_FAULTS = _typography, _comment, _key, _quotes, _comma, _value, _colon, _punctuation
 """What finds the fault of a line, in this order."""
 
 

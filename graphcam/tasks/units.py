@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Annotated, Any
 
-from graphcam.errors import DesignError, suggestion
+from graphcam.errors import DesignError
 from graphcam.tasks.number_limits import Bounded, NotNegative, Positive, Within
+from graphcam.typed_words import meant
 from graphcam.words import Caption, Words, or_list, say
 
 Factors = Mapping[str, float]
@@ -97,6 +98,8 @@ class HeldIn:
         (31.75, 57.29577951308232)
         >>> print(HeldIn("mm").number("1,25 in"), HeldIn("mm").number("3 lbf"), sep="; ")
         write "1.25 in"; lbf converts to N, not to mm
+        >>> print(HeldIn("mm").number("8,5 мм"))
+        write "8.5 mm"
         """
         found = _NUMBER_AND_UNIT.fullmatch(text.translate(_TYPED_SIGNS).strip())
         if found is None or not math.isfinite(float(found[1])):
@@ -108,16 +111,19 @@ class HeldIn:
                 number = InUnit(Decimal(said) * Decimal(repr(UNITS[own][unit])))
                 number.text, number.unit, number.own, number.field = text, unit, own, self
                 return number
-        if comma := re.match(r",([0-9]+)", unit):
+        numbers = [said]
+        if comma := re.match(r",([0-9]+) ?", unit):
             # Three digits behind a comma may be thousands.
-            meant = [text.strip().replace(",", by) for by in (".", "")[: 1 + (len(comma[1]) == 3)]]
-            return say("write {word}", word=or_list([f'"{each}"' for each in meant]))
+            numbers = [said + by + comma[1] for by in (".", "")[: 1 + (len(comma[1]) == 3)]]
+            unit = unit[comma.end() :]
         if not unit:
-            return say('write {number} without quotes, or "{number} {unit}"', number=said, unit=self.own)
+            return say('write {number} without quotes, or "{number} {unit}"', number=numbers[0], unit=self.own)
+        known = [*UNITS[self.own], *UNITS.get(self.of_turning, ())]
+        if name := meant(unit, known):
+            return say("write {word}", word=or_list([f'"{number} {name}"' for number in numbers]))
         if other := [own for own, units in UNITS.items() if unit in units]:
             return _other_unit(unit, other[0], self.own)
-        known = [*UNITS[self.own], *UNITS.get(self.of_turning, ())]
-        return suggestion(unit, known) or say("convert the number to one of these units")
+        return say("convert the number to one of these units")
 
 
 def numbers_in_units(table: Any, path: str = "") -> Iterator[tuple[str, InUnit]]:

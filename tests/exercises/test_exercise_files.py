@@ -80,7 +80,7 @@ def test_the_text_names_every_parameter_of_the_task(name):
         ("decimals = 1", "decimal = 1", "unknown key"),
         ("marks = 2", "marks = 0", "marks is 0"),
         ('law = "{law_up}"', 'law = "sawtooth"', "law of phase 1 is 'sawtooth'"),
-        ("[sheet]", "[sheet", r"line \d+ is .\[sheet., but must be TOML"),
+        ("[sheet]", "[sheet", r"line \d+: the table is \[sheet, but must be closed by"),
     ],
 )
 def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):

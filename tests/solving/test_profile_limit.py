@@ -17,6 +17,19 @@ SHARP = Task(
 """A published limit, whose least radius was found by bisection on dense formulas of their own: 32.0781 mm."""
 
 
+OPEN_RADIUS = """rotation = "cw"
+[motion]
+phases = [
+  { kind = "rise", angle = 90, lift = 20, law = "cycloidal" },
+  { kind = "dwell", angle = 90 },
+  { kind = "return", angle = 90, lift = 20, law = "cycloidal" },
+  { kind = "dwell", angle = 90 },
+]
+[follower]
+kind = "translating"
+"""
+
+
 def profile_radius(solution: gc.Solution) -> float:
     """The exact minimum radius of curvature of the working profile [mm]."""
     return solution.cam.extremes().min_convex_radius[0] - solution.cam.roller_radius
@@ -116,3 +129,16 @@ def test_what_no_radius_at_a_centre_distance_has_is_refused():
     assert caught.value.quantity == "limits.min_curvature_radius"
     with pytest.raises(gc.DesignError, match="give the centre distance too"):
         gc.minimum_radius(gc.builtin_task("arm").motion(), gc.Oscillating(80), curvature=3)
+
+
+@pytest.mark.parametrize(
+    ("field", "text"),
+    [("follower.roller_radius", "[follower]\nroller_radius = 200"), ("part.bore", "[part]\nbore = 400\n[follower]")],
+)
+def test_a_size_that_asks_for_a_cam_larger_than_any_page_is_named(field, text, tmp_path):
+    path = tmp_path / "cam.toml"
+    path.write_text(OPEN_RADIUS.replace("[follower]", text))
+    with pytest.raises(gc.DesignError, match=r"must be small enough .* on A1 .*; the prime radius found") as caught:
+        gc.solve(gc.load_task(path)).write(tmp_path / "out", files=["pdf"])
+    assert caught.value.quantity == field
+    assert not (tmp_path / "out").exists()

@@ -145,7 +145,7 @@ FAULTS = {
         (WHOLE[WHOLE.index("phases = ["): WHOLE.index("[follower]")], RADIANS), "motion.phases (sum of the angles)",
         "6.2832 360 degrees 2 pi radians",
     ),
-    "not TOML": (("[limits]", "[limits"), "line 22", "'[limits' TOML graphcam init"),
+    "not TOML": (("[limits]", "[[limits"), "line 22", "'[[limits' TOML graphcam init"),
 }  # fmt: skip
 
 NO_TEXT = {

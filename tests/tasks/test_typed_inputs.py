@@ -41,6 +41,26 @@ def told(tmp_path: Path, text: str) -> str:
             "частота = 120",
             "line 2: the key is частота, .* Latin letters; did you mean 'speed_rpm'",
         ),
+        ("[motion]", "[движение]", "line 3: the key is движение, .* Latin letters; did you mean 'motion'"),
+        (
+            "[motion]",
+            "[motion # of the follower",
+            r"line 3: the table is \[motion, .* closed by \]; write \] behind its end",
+        ),
+        (
+            'kind = "translating"',
+            'kind = "translating", # a stem',
+            'line 11: the value is "translating", but .*delete the comma',
+        ),
+        (
+            "angle = 45 }",
+            "angle = 45",
+            'line 6: the entry is { kind = "dwell", angle = 45, but must be closed by }; write } behind its end, on',
+        ),
+        ("angle = 45 },", "angle = 45 }", r"line 6: the entry is .* followed by a comma; write a comma behind its }"),
+        ("lift = 30", 'lift = "25,5 мм"', 'lift of phase 1 .*; write "25.5 mm"'),
+        ("speed_rpm = 120", 'speed_rpm = "2 Гц"', 'speed_rpm .*; write "2 Hz"'),
+        ("[follower]", "[[answers]]\n[follower]", "the file is an exercise, .*; 'graphcam exercise make' takes it"),
         (
             '"cw"',
             '"cw" // clockwise',

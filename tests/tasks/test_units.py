@@ -256,13 +256,14 @@ def test_units_are_those_of_the_handbooks(own, text, value):
 
 HOSTILE = {
     "": "", " ": "", "in": "", "auto": "", "nan in": "", "inf mm": "", "1e999 in": "", "- 3 mm": "", "--3 mm": "",
-    "0x10 mm": "convert", "1_000 mm": "convert", "\u0663 mm": "", "mm 3": "", "3 furlong": "convert", "3 MM": "'mm'",
-    "3 inches": "'in'", '3"': "'in'", "3 In": "'in'", "3 мм": "'mm'", "3 mm mm": "convert", "3 in 4 in": "convert",
+    "0x10 mm": "convert", "1_000 mm": "convert", "\u0663 mm": "", "mm 3": "", "3 furlong": "convert", "3 MM": '"3 mm"',
+    "3 inches": '"3 in"', '3"': '"3 in"', "3 In": '"3 in"', "3 mm mm": "convert", "3 in 4 in": "convert",
     "1/4 in": "convert", "1 1/4 in": "convert", "3 mm^2": "convert", "1.2.3 mm": "convert", "1,25 in": '"1.25 in"',
     "1,250 in": '"1.250 in" or "1250 in"', "1.25": 'write 1.25 without quotes, or "1.25 mm"', "3 %": "convert",
-    "3 mm; rm": "convert", "3\x00mm": "'mm'", "3 mm # in": "convert", "(3 mm)": "", "3 kg": "kg converts to kg",
+    "3 mm; rm": "convert", "3\x00mm": '"3 mm"', "3 mm # in": "convert", "(3 mm)": "", "3 kg": "kg converts to kg",
     "3 rad": "rad converts to deg", "1e-999999999 furlong": "convert", "9" * 5000: "", "1 " + "m" * 100_000: "convert",
     "3\n\nmm\nx": "convert", "{offset}": "", "1.25 in": None,
+    "3 мм": '"3 mm"', "8,5 мм": '"8.5 mm"', "8,5": 'without quotes, or "8.5 mm"',
 }  # fmt: skip
 """What is typed for a length, and what of the remedy tells it; None if it is one."""
 

@@ -148,7 +148,7 @@ def grade_notebooks(
     for path, head, lines in ((out, ("student", f"marks of {most}", *questions), sums), (answers, HEADS, rows)):
         with whole_file(path) as draft:
             draft.write_text(table(head, lines), encoding="utf-8", newline="")
-    done = say("notebooks marked of {count} students; in {folder}: {files}")
+    done = say("students whose notebooks were marked: {count}; in {folder}: {files}")
     return [done.with_values(count=len(marked), folder=str(out.parent), files=f"{out.name}, {answers.name}")]
 
 
