@@ -16,6 +16,8 @@ ROUNDING_SLACK = 1e-9
 """A reading this close to a multiple, in parts of it, is that multiple."""
 
 
+BLUNT_FACTOR = 1.15
+"""Times the radius of a given roller, the sharpest bend suffices as it is drawn: three points read it too large."""
 SAME_RADIUS = 1e-4
 """A radius that differs by less, in parts of it, is told as the same."""
 
@@ -174,9 +176,10 @@ PROFILE_TRIAL = say(
     "round it up to {next:g} mm."
 )
 ROLLER_TRIAL = say(
-    "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, less than the "
-    "radius of the roller, {needed:g} mm, so the profile would be undercut. Add what is lacking, {lacking:.4g} mm, to "
-    "r₀, and round it up to {next:g} mm."
+    "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, less than "
+    "{factor:g} times the radius of the roller, {needed:g} mm: three points read a sharp bend too large, and the "
+    "profile may be undercut. Add what is lacking, {lacking:.4g} mm, to r₀, and round it up to {next:g} mm.",
+    factor=BLUNT_FACTOR,
 )
 
 
@@ -199,7 +202,7 @@ def _of_trial(trial: Trial, following: Trial | None) -> Caption:
                 )
             )
     elif trial.too_sharp >= trial.too_thin:
-        by_roller = math.isclose(trial.needed, trial.roller)
+        by_roller = math.isclose(trial.needed, BLUNT_FACTOR * trial.roller)
         told.append(
             (ROLLER_TRIAL if by_roller else PROFILE_TRIAL).with_values(
                 lacking=trial.too_sharp, next=following.prime_radius

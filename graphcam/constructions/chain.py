@@ -13,6 +13,7 @@ import numpy as np
 
 from graphcam.constructions.acceleration import acceleration_diagram
 from graphcam.constructions.adoption import (
+    BLUNT_FACTOR,
     ROUNDING_SLACK,
     Adoption,
     Trial,
@@ -343,6 +344,8 @@ class Chain(Drawings):
         rho, needed = math.inf, 0.0
         if (permitted := board.needed_profile_radius) is not None:
             rho, needed = float(other.curvature.value("rho")), touching + permitted
+            if board.min_profile_radius is None:
+                needed = BLUNT_FACTOR * touching
         return Trial(radius, place, rho, needed, radius - roller, board.shaft_radius)
 
     @cached_property

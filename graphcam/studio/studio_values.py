@@ -115,7 +115,8 @@ def warnings(solution: AnySolution, spoken: Language) -> list[dict[str, Any]]:
     >>> from dataclasses import replace
     >>> from graphcam.language import ENGLISH
     >>> task = gc.builtin_task()
-    >>> sharp = gc.solve(replace(task, follower=replace(task.follower, roller_radius=40.0)))
+    >>> given = replace(task.cam, prime_radius=44.0), replace(task.follower, roller_radius=40.0)
+    >>> sharp = gc.solve(replace(task, cam=given[0], follower=given[1]))
     >>> [(each["view"], each["at"]) for each in warnings(sharp, ENGLISH)]
     [('profile', [-33.52, 0.8])]
     """

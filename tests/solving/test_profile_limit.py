@@ -7,6 +7,7 @@ import pytest
 from over_all import over_all
 
 import graphcam as gc
+from graphcam.constructions.adoption import BLUNT_FACTOR
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import CamTable, DrawingTable, LimitsTable, Task, TranslatingTable
 
@@ -90,10 +91,13 @@ def test_an_open_radius_is_one_on_which_a_given_roller_does_not_undercut(roller,
     solution, knife = gc.solve(task), gc.solve(replace(task, follower=TranslatingTable(offset, 0.0)))
     asked = {"rise": math.radians(45), "return_": math.radians(70), "offset": offset, "curvature": 0.0}
     least = gc.minimum_radius(task.motion(), gc.Translating(offset, roller), "ccw", **asked).prime_radius
-    # Up to what the drawing misses of it; a radius that suffices is told of as without a roller.
-    assert max(least, knife.cam.prime_radius) - 0.1 <= solution.cam.prime_radius < least + 1.1
+    blunt = {**asked, "curvature": (BLUNT_FACTOR - 1) * roller}
+    most = gc.minimum_radius(task.motion(), gc.Translating(offset, roller), "ccw", **blunt).prime_radius
+    assert max(least, knife.cam.prime_radius) <= solution.cam.prime_radius < max(most, knife.cam.prime_radius) + 1.1
+    assert solution.cam.undercuts() == []
+    # A radius that suffices is told of as without a roller.
     assert (solution.cam.prime_radius == knife.cam.prime_radius) == (solution.chain.trials == ())
-    assert bool(solution.chain.trials) == (knife.cam.extremes().min_convex_radius[0] < roller)
+    assert bool(solution.chain.trials) == (knife.chain["curvature"].value("rho") < BLUNT_FACTOR * roller)
 
 
 def test_a_roller_that_no_radius_at_a_centre_distance_can_have_is_refused():

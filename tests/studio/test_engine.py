@@ -13,6 +13,7 @@ import graphcam as gc
 from graphcam.report.documents import contents_of
 from graphcam.studio.engine import answer
 from graphcam.studio.task_paths import changed_task
+from graphcam.tasks.task import CamTable
 
 LEAST_PX = 10.0
 """No letter on the screen is smaller."""
@@ -167,10 +168,12 @@ def test_values_are_those_of_the_solution(name):
 
 
 def test_undercut_is_shown_where_the_cam_has_its_corner():
-    sharp = changed_task(plain_task("coursework"), {"follower.roller_radius": 40.0})
+    sharp = changed_task(plain_task("coursework"), {"follower.roller_radius": 40.0, "cam.prime_radius": 44.0})
     (warning,) = ask(sharp, "profile", warnings=True)["warnings"]
     assert (warning["view"], warning["limit"]) == ("profile", True)
-    solution = gc.solve(gc.Task(**{**vars(builtin("coursework")), "follower": _with_roller(40.0)}))
+    solution = gc.solve(
+        gc.Task(**{**vars(builtin("coursework")), "follower": _with_roller(40.0), "cam": CamTable(44.0)})
+    )
     x, y = solution.cam.undercuts()[0].crossing[2:]
     mu = solution.chain.profile_scale.per_mm
     assert warning["at"] == pytest.approx([x / mu, -y / mu], abs=0.02)

@@ -16,6 +16,7 @@ import graphcam as gc
 from graphcam.report.documents import note_of, sheet_of
 from graphcam.sheets.model import Stroke, Text
 from graphcam.tasks.sheet_tables import plain_data
+from graphcam.tasks.task import CamTable
 from graphcam.tasks.task_file import builtin_text, task_from
 from graphcam.tasks.task_writer import task_files
 from graphcam.workshop.part_contents import PartContents
@@ -92,7 +93,8 @@ def test_the_curve_on_the_sheet_is_the_band_over_the_turn(tmp_path):
 
 def test_a_profile_that_is_undercut_says_so(tmp_path):
     task = loaded(tmp_path, "coursework", WAVES)
-    undercut = replace(task, follower=replace(task.follower, roller_radius=35.0))
+    given = {"cam": CamTable(44.0), "follower": replace(task.follower, roller_radius=35.0)}
+    undercut = replace(task, **given)
     solution = gc.solve(undercut)
     assert solution.tolerances.undercut
     assert solution.to_dict()["tolerances"] == {"bands": None, "errors": None}
