@@ -18,6 +18,7 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import DesignError
 from graphcam.tasks.part_table import PartTable
+from graphcam.tasks.task import CamTable
 
 CUTTING = ["profile_step", "profile_gcode"]
 TASKS = ("coursework", "arm", "flat", "measured", "arcs")
@@ -110,8 +111,8 @@ def test_a_part_has_a_feed_and_a_degree_that_can_be(said):
 def test_of_an_undercut_cam_what_can_be_cut_is_written(tmp_path):
     """Both files have its corner, which the program passes with the cutter on an arc about it."""
     task = gc.builtin_task()
-    follower = replace(task.follower, roller_radius=30.0)
-    solution = gc.solve(replace(task, follower=follower, part=PartTable(bore=6.0, cutter_radius=4.0)))
+    sharp = replace(task, cam=CamTable(44.0), follower=replace(task.follower, roller_radius=30.0))
+    solution = gc.solve(replace(sharp, part=PartTable(bore=6.0, cutter_radius=4.0)))
     corners = [complex(*lost.crossing[2:]) for lost in solution.cam.undercuts()]
     assert corners
     solution.write(tmp_path, CUTTING)
