@@ -17,6 +17,8 @@ from graphcam.words import say
 
 CONSTANT_VELOCITY = "constant-velocity"
 """The name of the law of constant velocity with blends."""
+USUAL_BLENDS = 0.25, 0.25
+"""The parts of a phase that they take where none are given."""
 MIDDLE_RANGE = 0.25, 0.75
 """An edge between these is where the law is seen from the other end; else a seam is laid at the middle."""
 JUMP = 1e-9
@@ -108,7 +110,7 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
 
 
 @lru_cache(maxsize=64)  # so that phases of the same law share their formulas and are computed together
-def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 2) -> Law:
+def constant_velocity_law(start: float = USUAL_BLENDS[0], end: float = USUAL_BLENDS[1], smooth: int = 2) -> Law:
     """The law of constant velocity between two blends, which lead from rest to it and back to rest.
 
     The velocity of a blend is the polynomial of lowest degree with ``smooth - 1`` derivatives that are zero at both of

@@ -8,7 +8,7 @@ from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.given.follower import MM_PER_M, FlatFaced, Oscillating, OscillatingFlat, Translating
 from graphcam.given.laws import DECLARED_LAWS, LAWS
-from graphcam.given.polynomial_law import CONSTANT_VELOCITY
+from graphcam.given.polynomial_law import CONSTANT_VELOCITY, USUAL_BLENDS
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
@@ -219,6 +219,7 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
         # Only these laws have parts whose accelerations differ.
         "ratio": RATIO_RANGE.plain() | {"laws": [name for name, law in DECLARED_LAWS.items() if law.has_ratio]},
+        "blends": {"law": CONSTANT_VELOCITY, "usual": USUAL_BLENDS},
         "angle": SizeRange(MIN_PHASE_ANGLE, 360.0 - MIN_PHASE_ANGLE * (len(rows) - 1), 1.0).plain()
         | {"unit": DEGREE_SIGN},
         "lift": lifts.plain() | {"unit": _lift_unit(make, solution)},

@@ -159,6 +159,8 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "lift": say_in("a phase", "Lift"),
     "law": say_in("a phase", "Law"),
     "ratio": say_in("a phase", "Ratio of the accelerations"),
+    "first_blend": say_in("a phase", "Part of the first blend"),
+    "second_blend": say_in("a phase", "Part of the second blend"),
     "phase_dwell": say("Add a dwell after it"),
     "phase_step": say("Split it"),
     "phase_remove": say("Remove it"),

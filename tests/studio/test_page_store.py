@@ -245,3 +245,25 @@ def test_a_copied_link_is_drawn_in_a_new_tab(browser, served, tmp_path):
             each.close()
         server._ends = {b"": 0.0}
         thread.join()
+
+
+def test_the_blends_of_constant_velocity_have_fields_and_go_with_the_law(opened):
+    page = opened()
+    first_phase(page)
+    law, blend = page.locator("[data-key='phase-law']"), page.locator("[data-key='phase-second_blend']")
+    assert not blend.count()
+    law.select_option("constant-velocity")
+    settled(page)
+    assert blend.input_value() == "0.25"
+    commit(page, blend, "0.1")
+    settled(page)
+    assert task_of(page)["motion"]["phases"][0]["blends"] == [0.25, 0.1]
+    commit(page, blend, "0.9")
+    settled(page)
+    assert messages(page)
+    page.keyboard.press("Escape")
+    settled(page)
+    law.select_option("cycloidal")
+    settled(page)
+    assert "blends" not in task_of(page)["motion"]["phases"][0]
+    assert is_whole(page)

@@ -149,13 +149,15 @@ function phasesOf({ change, slide, refuse, isRefused, word, decimal }) {
   }
 
   function fieldsOf(phase) {
-    const path = `motion.phases[${chosen}]`, { ratio } = field;
+    const path = `motion.phases[${chosen}]`, { ratio } = field, blends = phase.blends ?? field.blends?.usual;
     return [
       make("p", { class: "label", text: `${phase.symbol} ${phase.name}` }),
       phases.length > 1 && numberOf("angle_of_phase", phase.angle, "°", (angle) => angleChanges(standing(), chosen, angle)),
       phase.kind !== "dwell" && numberOf("lift", phase.lift, field.lift?.unit || "", (lift) => liftChanges(standing(), chosen, lift)),
       phase.kind !== "dwell" && lawOf(phase, path),
       ratio?.laws.includes(phase.law) && numberOf("ratio", phase.ratio ?? 1, "", (value) => ({ [`${path}.ratio`]: value })),
+      ...(phase.law === field.blends?.law ? ["first_blend", "second_blend"].map((name, k) =>
+        numberOf(name, blends[k], "", (value) => ({ [`${path}.blends`]: blends.map((blend, at) => at === k ? value : blend) }))) : []),
       editButtons(phase),
     ].filter(Boolean);
   }
