@@ -187,7 +187,8 @@ def _batch_results(
                             # Nobody has begun with this one: it is for the next executor.
                             broken, batches = True, chain([batch], batches)
                         continue
-                    for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    # Of several the one that was begun first comes first.
+                    for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=[*running].index):
                         # Whatever came instead of a result: the function itself does not raise.
                         broken = broken or future.exception() is not None
                         yield running.pop(future), None if future.exception() else future.result()

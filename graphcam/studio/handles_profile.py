@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from graphcam.constructions.adoption import BLUNT_FACTOR
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP
 from graphcam.given.follower import sense
@@ -22,7 +23,7 @@ from graphcam.studio.handle import (
     phi_axis,
     snapped,
 )
-from graphcam.studio.size_ranges import SizeRange, lift_of, ranges, sizes_of, step_for, third_side
+from graphcam.studio.size_ranges import SizeRange, lift_of, multiple_below, ranges, sizes_of, step_for, third_side
 from graphcam.words import say
 
 PRIME_CIRCLE_NAME, OFFSET_CIRCLE_NAME = say("Prime circle"), say("Offset circle")
@@ -94,6 +95,8 @@ def roller_rim(solution: Solution, state: HandleState) -> Iterator[Handle]:
     centre = pitch_at(solution, math.radians(state.phi))
     out = centre / abs(centre)
     rho = float(solution.chain["curvature"].value("rho"))
+    if solution.task.prime_radius is None and math.isfinite(rho):  # a larger roller would find a larger prime radius
+        room = room._replace(most=max(room.least, min(room.most, multiple_below(rho / BLUNT_FACTOR, step))))
     sharpest = [round(math.floor(5 * rho / step) * step / 5, 9)] if math.isfinite(rho) else []
 
     def drag(to: complex, fine: bool) -> Changes:

@@ -55,9 +55,11 @@ UNREAD_FILES = frozenset(
         *("matplotlib_renderer.py", "dxf_renderer.py", "cad_renderer.py", "output_folder.py", "sizing_files.py"),
         *("server.py", "local_studio.py", "widget.py"),
         *("commented_task.py", "help_texts.py", "examples.toml"),
+        *("working_drawing.py", "part_layout.py", "cutting_files.py", "cutter_path.py", "solid.py"),
     }
 )
-"""The data of such rooms; what needs Matplotlib, ezdxf, a server or a notebook; what writes a new task file."""
+"""The data of such rooms; what needs Matplotlib, ezdxf, a server or a notebook; what writes a new task file, or
+files for the workshop."""
 KEPT_ENDINGS = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
 """Kinds of files of graphcam that the engine reads; pages, scripts and fonts are not for it."""
 ENGINE_LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")

@@ -3,6 +3,7 @@
 import json
 import math
 import random
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,6 +12,7 @@ from over_all import over_all, over_seeds
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
+from graphcam.constructions.adoption import BLUNT_FACTOR
 from graphcam.studio.engine import answer
 from graphcam.studio.handle import changes_with
 from graphcam.studio.handles import dragged, handles_of
@@ -18,6 +20,7 @@ from graphcam.studio.held_solutions import hold_of
 from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.views_answer import moved_task
 from graphcam.studio.views_request import views_request
+from graphcam.tasks.task import CamTable
 
 VIEWS = ("acceleration", "velocity", "displacement", "combined", "region", "angle", "profile", "arcs", "roller")
 PHI = 39.0
@@ -220,13 +223,16 @@ def test_the_tangent_goes_through_the_place_that_gives_its_angle():
 
 
 def test_the_roller_is_drawn_to_the_least_radius_of_curvature():
-    solution = solved("coursework")
+    """Where the prime radius is given; else it is found by a larger roller, and a hand goes no farther than that."""
+    solution = gc.solve(replace(gc.builtin_task(), cam=CamTable(44.0)))
     rho = solution.chain["curvature"].value("rho").item()
-    rim = next(each for each in handles("coursework") if each["id"] == "profile/r")
+    rim = next(each for each in handles_of(solution, ["profile"], str, PHI) if each["id"] == "profile/r")
     mu = solution.chain["inversion"].readings["x"].per_mm
     out = [rim["at"][k] + rim["along"][k] * (rho + 0.4 - 17.0) / mu for k in (0, 1)]
     taken = dragged(solution, {"handle": "profile/r", "to": out}, PHI)["follower.roller_radius"]
     assert rho - 0.1 <= taken <= rho
+    taken = dragged(solved("coursework"), {"handle": "profile/r", "to": out}, PHI)["follower.roller_radius"]
+    assert rho / BLUNT_FACTOR - 1 <= taken <= rho / BLUNT_FACTOR
 
 
 @pytest.mark.parametrize("name", ["coursework", "arm"])
