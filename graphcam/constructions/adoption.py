@@ -81,6 +81,7 @@ class Trial:
 
     rho : of the sharpest bend of the pitch curve;  needed : by the roller and the permitted radius of the profile
     base : radius of the base circle;  shaft : what the bore takes of it, 0 where the task gives none
+    by_roller : whether it is needed by the roller alone, as no radius of the profile is permitted
     """
 
     prime_radius: float
@@ -89,6 +90,7 @@ class Trial:
     needed: float
     base: float
     shaft: float
+    by_roller: bool
 
     @property
     def roller(self) -> float:
@@ -202,12 +204,8 @@ def _of_trial(trial: Trial, following: Trial | None) -> Caption:
                 )
             )
     elif trial.too_sharp >= trial.too_thin:
-        by_roller = math.isclose(trial.needed, BLUNT_FACTOR * trial.roller)
-        told.append(
-            (ROLLER_TRIAL if by_roller else PROFILE_TRIAL).with_values(
-                lacking=trial.too_sharp, next=following.prime_radius
-            )
-        )
+        said = ROLLER_TRIAL if trial.by_roller else PROFILE_TRIAL
+        told.append(said.with_values(lacking=trial.too_sharp, next=following.prime_radius))
     else:
         told.append(
             say(

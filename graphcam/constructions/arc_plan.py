@@ -230,7 +230,6 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     at = worked_station(stations, paper)
 
     def told(j: int) -> Caption:
-        """The lengths that are carried over at station j."""
         """What is read at a place: OK on paper, the velocity [mm/rad], the pressure angle [degrees]."""
         if np.isnan(paper[j]):
             return UNREADABLE
@@ -279,6 +278,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     )
 
     def told(j: int) -> Caption:
+        """What is read at a place: the lengths on paper, and the acceleration [mm/rad²]."""
         if np.isnan(om[j]):
             return UNREADABLE
         n_at = say("{centre}N = {cn:.2f} mm") if cn[j] > NEGLIGIBLE_SIZE else say("N in {centre}")

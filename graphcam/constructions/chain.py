@@ -341,12 +341,11 @@ class Chain(Drawings):
             roller = self._rounded_roller(proposed) if 0 < proposed < math.inf else 0.0
             # The rule leaves the profile blunt enough, if it leaves a roller at all.
             touching = 0.0 if proposed >= self.rounding else self.rounding
-        rho, needed = math.inf, 0.0
-        if (permitted := board.needed_profile_radius) is not None:
-            rho, needed = float(other.curvature.value("rho")), touching + permitted
-            if board.min_profile_radius is None:
-                needed = BLUNT_FACTOR * touching
-        return Trial(radius, place, rho, needed, radius - roller, board.shaft_radius)
+        rho, needed, permitted = math.inf, 0.0, board.min_profile_radius
+        if board.needed_profile_radius is not None:
+            rho = float(other.curvature.value("rho"))
+            needed = BLUNT_FACTOR * touching if permitted is None else touching + permitted
+        return Trial(radius, place, rho, needed, radius - roller, board.shaft_radius, by_roller=permitted is None)
 
     @cached_property
     def _by_angles(self) -> tuple[float, float]:

@@ -83,6 +83,7 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     base = say("Draw the line of motion vertical with a set square and mark B₀ on it, where the lift starts.")
 
     def set_off(k: int) -> Caption:
+        """How far up s and how far aside v are laid off at station k."""
         up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else say("{s:.2f} mm up", s=s[k])
         at = ends.first[[k]]
         v_there = (

@@ -208,6 +208,7 @@ def given_cam_differentiation(
     turn, meaning = FULL_TURN / mu_phi.per_mm, GIVEN_CAM_MEANING
 
     def poles_at(mu: float) -> tuple[float, float]:
+        """The poles [mm of paper] at a scale of the displacement."""
         # What was measured on the cam is off by about two lines, which the diagram enlarges.
         off = pencil.line * max(1.0, 2 * measured / mu)
         return _poles_on(paper, errorless / mu, turn / phi.size, poles, off)
@@ -379,6 +380,7 @@ class _Pass:
 
     @property
     def names(self) -> list[str]:
+        """The numbers of the chords or tangents."""
         return [f"{self.first_slope_number + k}" for k in range(self.drawn("slopes").shown.size)]
 
     def slope(self, k: int) -> Caption:

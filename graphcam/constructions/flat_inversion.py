@@ -195,6 +195,7 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
     sigma = sense(inverted.givens.rotation)
 
     def laid_off(k: int) -> Words:
+        """The length at station k, and the side to which it is laid off."""
         length, side = setting(pitch[k]), _side(v[k] * sigma)
         return say("{length} {side}", length=length, side=side) if isinstance(length, Caption) else length
 

@@ -335,6 +335,7 @@ class _Integrating:
 
     @property
     def subscript(self) -> str:
+        """The index of the pole as it is written."""
         return f"{self.index}".translate(SUBSCRIPTS)
 
 

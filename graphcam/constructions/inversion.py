@@ -193,6 +193,7 @@ def _displacement_step(inverted: OffsetInverted) -> Step:
     lengths = _lengths(inverted)
 
     def laid_off(k: int) -> Words:
+        """The length at station k, and inward where it is."""
         if not lengths[k]:
             return say("s is zero, so the point lies on the prime circle")
         return say("{length} inward", length=setting(pitch.first[k])) if lengths[k] < 0 else setting(pitch.first[k])

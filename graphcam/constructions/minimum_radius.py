@@ -196,6 +196,7 @@ def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) ->
     sigma, limits, integrated = sense(givens.rotation), givens.limits, givens.integrated
 
     def touching(name: str, direction: int, limit: float, side: int) -> Drawn:
+        """The tangent of the rises (direction +1) or returns (-1) at the permitted angle [rad]."""
         along = hand.protractor(f"direction of {name}", start, -side * UP, side * limit)
         pieces = pieces_of(integrated.givens.motion, integrated.givens.stations, direction)
         return hand.tangent(name, ends, pieces, along.turned(-UP))

@@ -7,7 +7,8 @@ import pytest
 from over_all import over_all
 
 import graphcam as gc
-from graphcam.constructions.adoption import BLUNT_FACTOR
+from graphcam.constructions.adoption import BLUNT_FACTOR, adoption_step
+from graphcam.constructions.views import PROFILE
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import CamTable, DrawingTable, LimitsTable, Task, TranslatingTable
 
@@ -98,6 +99,18 @@ def test_an_open_radius_is_one_on_which_a_given_roller_does_not_undercut(roller,
     # A radius that suffices is told of as without a roller.
     assert (solution.cam.prime_radius == knife.cam.prime_radius) == (solution.chain.trials == ())
     assert bool(solution.chain.trials) == (knife.chain["curvature"].value("rho") < BLUNT_FACTOR * roller)
+
+
+def test_a_trial_for_a_permitted_radius_says_so_though_it_takes_as_much_as_for_the_roller_alone():
+    """20 mm of roller and 3 mm of profile are 1.15 times the roller: what is needed does not tell why."""
+    needed = replace(SHARP, follower=TranslatingTable(5.0, 20.0), limits=LimitsTable(45, 70, 3.0))
+    for task, said in (
+        (needed, "the permitted radius of the profile"),
+        (replace(needed, limits=LimitsTable(45, 70)), "1.15 times"),
+    ):
+        solution = gc.solve(task)
+        assert solution.chain.trials[0].needed == pytest.approx(23)
+        assert said in str(adoption_step(solution.chain.adopted(), "e", 1.0, PROFILE).parts[1].caption)
 
 
 def test_a_roller_that_no_radius_at_a_centre_distance_can_have_is_refused():
