@@ -81,7 +81,7 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
     by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
     if names := guessed_radii(exercise, keys, tolerances, variant.task.cam.prime_radius):
         return RefusedDraw(tuple(RefusalReason("copied", name, "cam.prime_radius") for name in names), drawings={})
-    if (outcomes := unlisted_outcomes(exercise, drawn, keys, bound)).too_many(exercise.paper):
+    if (outcomes := unlisted_outcomes(exercise, drawn, keys, bound)).too_many:
         reasons = tuple(RefusalReason("unlisted", name, CAREFUL_WORK) for name in outcomes.kept)
         wrongly = {name: misconception(name).change(drawn.right) for name in outcomes.kept}
         return RefusedDraw(reasons, reasons, chains | wrongly)

@@ -25,9 +25,7 @@ PENCIL_LINE = 0.2
 LAW_MISTAKES = ("wrong-law", "laws-swapped")
 """Mistakes that draw another law of motion, which may be as good as the same one."""
 MAX_KEPT_SHARE = 0.03
-"""The maximum part of the mistakes not listed that may keep all marks in a variant,"""
-MAX_KEPT_SHARES = {"A4": 0.1}
-"""and on paper of which the diagrams are so small that tolerances in the machine's units are wide."""
+"""The maximum part of the mistakes not listed that may keep all marks in a variant."""
 
 
 def unlisted_names(exercise: Exercise) -> list[str]:
@@ -80,9 +78,10 @@ class UnlistedOutcomes(NamedTuple):
     kept: tuple[str, ...]
     near: tuple[str, ...]
 
-    def too_many(self, paper: str = "") -> bool:
-        """Whether more of them keep all marks than may on that paper."""
-        return len(self.kept) > MAX_KEPT_SHARES.get(paper, MAX_KEPT_SHARE) * len(self.shown)
+    @property
+    def too_many(self) -> bool:
+        """Whether more of them keep all marks than may."""
+        return len(self.kept) > MAX_KEPT_SHARE * len(self.shown)
 
 
 def unlisted_outcomes(
