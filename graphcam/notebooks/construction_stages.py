@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from io import BytesIO
@@ -224,20 +224,20 @@ def stages(
         name = step.view.name
         board, k = of_view.get(name), drawn[name]
         drawn[name] += 1
-        strip = {part: board.page(k, part) for part in shown_parts(len(step.places))} if board else {}
+        strip = {part: board.page(k, part) for part in shown_parts(board.drawing_parts(k))} if board else {}
         numbered = f"{number}." if chapter is None else f"{chapter}.{number}"
         page = board.page(k) if board else None
         empty = page is None or not any(group.entities for group in page.groups)
         yield Stage(numbered, step, None if empty else page, tuple(rows(construction, step)), tell, strip)
 
 
-def shown_parts(count: int) -> list[int]:
-    """The indices of the parts that are shown beside the whole: the first and the middle one, which fill a line.
+def shown_parts(parts: Sequence[int]) -> list[int]:
+    """Of the parts that draw something those shown beside the whole: the first and the middle one, which fill a line.
 
-    >>> [shown_parts(count) for count in (0, 1, 2, 3, 24)]
-    [[], [], [0], [0, 1], [0, 12]]
+    >>> [shown_parts(range(count)) for count in (0, 1, 2, 3, 24)], shown_parts([1, 2, 5])
+    ([[], [], [0], [0, 1], [0, 12]], [1, 2])
     """
-    return [0, count // 2][: count - 1] if count else []
+    return [parts[0], parts[len(parts) // 2]][: len(parts) - 1] if parts else []
 
 
 def drawing(construction: Construction, view: str | None = None, tell: Tell = str) -> Picture:

@@ -115,6 +115,11 @@ class StepBoard:
         box = self._box.moved(self.origin)
         return Page(box.width, box.height, box, tuple(groups))
 
+    def drawing_parts(self, current: int) -> list[int]:
+        """The indices of the parts of a step that put something on the paper: some are words alone."""
+        step, entities = self.steps[current], self._entities[len(self.former) + current]
+        return [part for part in range(len(step.places)) if _stages_up_to(step, part, entities)[-1][1]]
+
 
 def _stages_up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str, list[Entity]]]:
     """The stages of a step up to a part of it, each with its entities: what stood before, and what the part adds.
