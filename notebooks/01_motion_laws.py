@@ -25,7 +25,7 @@ import numpy as np
 from IPython.display import Markdown
 
 import graphcam as gc
-from graphcam.notebooks import Question, chart, compared, lesson_task, picture_of, show_steps, table
+from graphcam.notebooks import ArrayQuestion, Question, chart, compared, lesson_task, picture_of, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -142,6 +142,12 @@ Markdown(f"Here the axis of a revolution is {float(base.paper):.0f} mm long, and
 # rise over 80°. If both ordinates are chosen freely, the displacement does not return to the axis,
 # and no smoothing with a French curve will hide it.
 #
+# **Predict.** By how many millimetres does the displacement miss the axis at the end of the turn if the return's ordinate is made 2 %
+# too long, and the lift is 50 mm on paper? Write your number down; the last section has the answer.
+#
+# **Draw it** while you read: `graphcam solve task.toml --worksheet --out blank` prints the blank axes, and
+# `--upto acceleration` the sheet as far as this notebook goes.
+#
 # 4. Plot the law in each phase. A rise begins with acceleration *upwards*, a return with acceleration *downwards*.
 # 5. Divide each phase into $n$ equal parts and draw the ordinate at the **middle** of every part. These middle
 #    ordinates are all that the next construction will use.
@@ -153,6 +159,34 @@ show_steps(diagram, within=solution)
 # The areas above and below the axis are equal in each phase: whatever velocity the follower gains, it must lose
 # again. That is the first thing an examiner checks, and you can check it by eye.
 #
+# **Write it.** The middle ordinates of the rise, in mm of paper: `law(u)` gives $f$ and its first three derivatives at the fractions $u$ of
+# the phase, the longest ordinate is `y1`, and there are `n` parts. Two lines are enough.
+
+# %%
+rising = next(phase for phase in task.motion().phases if isinstance(phase, gc.Rise))
+law, y1, n = rising.normalised, float(greatest[0]), solution.chain.spans[0].stop - 1
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+plotted = diagram.readings["middles"].paper[:n]
+at_ends = law(np.linspace(0, 1, n + 1)[1:] - 1e-9)[2] * y1 / law.peak_acceleration
+middle_ordinates = ArrayQuestion(
+    plotted, 1e-6, "where the middle of a part lies, and what the longest ordinate stands for",
+    {"these are the ordinates at the ends of the parts": at_ends, "f″ must be divided by its maximum": plotted * law.peak_acceleration},
+)
+
+# %% tags=["try-it"]
+your_middles = None  # n ordinates, mm of paper, from law, y1 and n
+middle_ordinates.check(your_middles)
+
+# %% tags=["hide-input"]
+middle_u = (np.arange(n) + 0.5) / n
+middles = y1 * law(middle_u)[2] / law.peak_acceleration
+print(f"the first is {middles[0]:.2f} mm, the last {middles[-1]:.2f} mm")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert middle_ordinates.check(middles).status == "right"
+
+# %% [markdown]
 # ## Try it yourself
 #
 # A second task: a rise of 25 mm over **120°** by the **cosine** law, a dwell, a return over **90°** by the **cycloidal**
@@ -236,7 +270,7 @@ assert abs(lifts[1] / lifts[0] - 1.01) < 1e-12
 # The ordinates are *given*, not measured, so an ideal pencil makes no error in them. Drawing by hand makes three: the
 # ordinates are laid off with a ruler (half a division is 0.5 mm, 1 % of an ordinate of 50 mm), the middle of a part is found by
 # eye, and the curve is plotted through few points. An error of the return's ordinate by 1 % leaves the displacement 1 % of the
-# lift away from the axis at the end. Notebook 7 follows these errors through the whole chain.
+# lift away from the axis at the end (of a lift of 50 mm on paper, 2 % are 1 mm). Notebook 7 follows these errors through the whole chain.
 #
 # ## Questions
 #

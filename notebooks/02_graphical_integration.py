@@ -27,6 +27,7 @@ from IPython.display import Markdown
 import graphcam as gc
 from graphcam.constructions.differentiation import differentiation
 from graphcam.notebooks import (
+    ArrayQuestion,
     Question,
     changed,
     chart,
@@ -86,6 +87,12 @@ parts, poles = solution.chain.spans[0].stop - 1, integration.givens.poles
 Markdown(f"Each phase has {parts} parts; the poles are {poles[0]:g} and {poles[1]:g} mm from the origin.")
 
 # %% [markdown]
+# **Predict.** Of the chords of $v$ on the rise, which is the steepest, and where is $v$ greatest? And what if the law had its acceleration
+# constant, up and then down: which figure would the chords make? Sketch both before you look.
+#
+# **Draw it.** `graphcam solve task.toml --upto acceleration --out half` prints the sheet with the acceleration diagram drawn; the
+# axes of $v$ and $s$ wait for you.
+#
 # **First integration, a to v.** Every middle ordinate has its ray, and every ray its chord.
 # In a phase the chords start on the axis and must return to it: the follower is at rest before and after.
 
@@ -107,28 +114,54 @@ show_steps(integration, 4, 5, 6, within=solution)
 show_steps(integration, 7, 8, 9, within=solution)
 
 # %% [markdown]
-# **The same in four lines.** A pole integrates by one running sum: each chord climbs by the ordinate times the width of the part,
-# divided by the pole distance. Middle ordinates of $a$ give the ends of the chords of $v$; the means of their ends give $s$:
+# **Write it.** A pole integrates by one running sum: each chord climbs by the ordinate times the width of the part, divided by the pole
+# distance. From the `middles` of $a$ and the `widths` of the parts of the rise, all in mm of paper, compute the heights at which the chords
+# of $v$ end, with the first one, 0; then those of $s$, whose middle ordinates are the means of the ends of the chords of $v$. Four lines are enough.
 
 # %%
+diagram = solution.drawn["acceleration"]
+axis = diagram.points["axis"].real  # the stations of the rise come first
+widths = np.diff(axis[: parts + 1])
+middles = diagram.readings["middles"].paper[:parts]
+first_pole, second_pole = poles
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+# But for residuals, which the drawing distributes.
+residual = {name: float(np.abs(integration.readings[f"closing_{name}"].paper).max()) for name in "vs"}
+ends_v, ends_s = (integration.readings[name].paper[: parts + 1] for name in "vs")
+off_s = residual["s"] + residual["v"] * axis[parts] / poles[1]
+velocities = ArrayQuestion(
+    ends_v, 1e-6 + residual["v"], "what a chord climbs: ordinate times width over the pole distance",
+    {"the pole distance is forgotten": ends_v * poles[0], "the first chord begins at 0: put it in front": np.append(ends_v[1:], 0.0)},
+)
+displacements = ArrayQuestion(
+    ends_s, 1e-6 + off_s, "the ordinate at the middle of a chord of v",
+    {"the second pole distance is forgotten": ends_s * poles[1],
+     "the ordinate is that at the middle of the part, not at its end": np.append(0, np.cumsum(ends_v[1:] * widths / poles[1]))},
+)
+
+# %% tags=["try-it"]
+your_v = None  # parts + 1 heights, from middles, widths and first_pole
+velocities.check(your_v)
+
+# %% tags=["try-it"]
+your_s = None  # parts + 1 heights, from your_v, widths and second_pole
+displacements.check(your_s)
+
+# %% tags=["hide-input"]
 def by_pole(ordinates, widths, pole):
     """The ends of the chords on paper: the running sum of ordinate times width over the pole distance."""
     return np.concatenate([[0.0], np.cumsum(ordinates * widths / pole)])
 
 
-diagram = solution.drawn["acceleration"]
-axis = diagram.points["axis"].real  # the stations of the rise come first
-widths = np.diff(axis[: parts + 1])
-middles = diagram.readings["middles"].paper[:parts]
-v = by_pole(middles, widths, poles[0])
-s = by_pole((v[1:] + v[:-1]) / 2, widths, poles[1])
+v = by_pole(middles, widths, first_pole)
+s = by_pole((v[1:] + v[:-1]) / 2, widths, second_pole)
 print(f"s at the end of the rise: {s[-1]:.3f} mm of paper; on the drawing {float(integration.readings['s'].paper[parts]):.3f} mm")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-# But for residuals, which the drawing distributes.
-residual = {name: np.abs(integration.readings[f"closing_{name}"].paper).max() for name in "vs"}
-assert np.abs(v - integration.readings["v"].paper[: parts + 1]).max() < 1e-9 + residual["v"]
-assert np.abs(s - integration.readings["s"].paper[: parts + 1]).max() < 1e-9 + residual["s"] + residual["v"] * axis[parts] / poles[1]
+assert velocities.check(v).status == displacements.check(s).status == "right"
+assert np.abs(v - ends_v).max() < 1e-9 + residual["v"]
+assert np.abs(s - ends_s).max() < 1e-9 + off_s
 
 # %% [markdown]
 # ## Try it yourself

@@ -30,7 +30,18 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, Slider, chart, compared, explore, lesson_task, picture_of, show_steps, table
+from graphcam.notebooks import (
+    ArrayQuestion,
+    Question,
+    Slider,
+    chart,
+    compared,
+    explore,
+    lesson_task,
+    picture_of,
+    show_steps,
+    table,
+)
 
 # %% [markdown]
 # ## Background
@@ -69,6 +80,11 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, lesso
 #
 # The task of the course, from the file `task.toml`, at the station of the maximum velocity of the rise. The minimum radius is that of
 # notebook 4; here take it as given.
+#
+# **Predict.** Where is the pressure angle of the rise greatest: where $v$ is, before it, or after it? Look at the formula, and think of what
+# the height $s_0 + s$ does meanwhile.
+#
+# **Draw it.** `graphcam solve task.toml --upto minimum_radius --out half` prints the sheet with everything that the plan starts from.
 
 # %%
 task = lesson_task("task.toml", "translating")
@@ -93,16 +109,33 @@ show_steps(solution.drawn["angle_diagram"], within=solution)
 # Where the acceleration jumps, the curve has a corner: the angle itself is continuous, its slope is not. With a law without jumps it is
 # smooth.
 #
-# **The same in two lines.** From the readings of $s$ and $v$, all stations at once:
+# **Write it.** From the readings of $s$ and $v$ compute the pressure angle at all stations at once, in degrees, with its sign. Two lines are
+# enough.
 
 # %%
 s, v = (solution.drawn["integration"].readings[name].value for name in ("s", "v"))
-e, sigma = cam.follower.offset, {"ccw": 1, "cw": -1}[task.rotation]
-s0 = np.sqrt(cam.prime_radius**2 - e**2)
+e, r0, sigma = cam.follower.offset, cam.prime_radius, {"ccw": 1, "cw": -1}[task.rotation]
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+s0_of_r0 = np.sqrt(r0**2 - e**2)
+pressure_angles = ArrayQuestion(
+    np.degrees(plan.readings["alpha"].value), 1e-6, "the two legs of the triangle, and which way the cam turns",
+    {"e has the wrong sign": np.degrees(np.arctan((v + sigma * e) / (s0_of_r0 + s))),
+     "the height is counted from s₀, not from r₀": np.degrees(np.arctan((v - sigma * e) / (r0 + s))),
+     "the angles are in radians": plan.readings["alpha"].value},
+)
+
+# %% tags=["try-it"]
+your_alphas = None  # degrees, one for each station, from s, v, e, r0 and sigma
+pressure_angles.check(your_alphas)
+
+# %% tags=["hide-input"]
+s0 = np.sqrt(r0**2 - e**2)
 alpha = np.degrees(np.arctan2(v - sigma * e, s0 + s))
 print(f"maximum on the rise {alpha.max():.2f}°, on the return {alpha.min():.2f}°")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert pressure_angles.check(alpha).status == "right"
 assert np.abs(alpha - np.degrees(plan.readings["alpha"].value)).max() < 1e-9
 
 # %% [markdown]

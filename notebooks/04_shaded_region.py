@@ -31,6 +31,7 @@ import graphcam as gc
 from graphcam.comparison.bounds import ErrorBudget
 from graphcam.drafting.ink import reading
 from graphcam.notebooks import (
+    ArrayQuestion,
     Question,
     changed,
     chart,
@@ -91,6 +92,12 @@ solution = gc.solve(task)
 region = solution.drawn["minimum_radius"]
 
 # %% [markdown]
+# **Predict.** From which of the points $D_0, D_1, \dots$ do you expect the lowest line at 30°: the one where $v$ is greatest, an earlier or a later
+# one?
+#
+# **Draw it.** `graphcam solve task.toml --upto integration --out half` prints the sheet with the diagrams of $s$ and $v$; the region goes
+# beside them, in the scale of $s$.
+#
 # The readings from notebook 2, at the stations of the rise. **Segments and heights must have the same scale**, otherwise the
 # angles are wrong, so each $v$ (in mm/rad) is divided by $\mu_s$ and not by $\mu_v$:
 
@@ -139,6 +146,35 @@ show_steps(region, 2, within=solution)
 # Set the protractor to 30°, lean the ruler, and shift it parallel until it just touches the curve: a little below the point of the
 # maximum velocity.
 #
+# **Write it.** Each line of the rise meets the line of motion at some depth below the start of the lift: the centre of a cam with a central follower
+# must lie at least so deep. From the `heights` $s$ and the `segments` $v$ of the rise, both in mm of paper, compute the depths of the lines
+# at 30°. The tangent is the deepest of them. One line is enough.
+
+# %%
+heights, segments = s.paper[rise], v.value[rise] / mu_s
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+aside, up = np.abs(region.points["ends"][rise].real), region.points["ends"][rise].imag
+depth_lines = ArrayQuestion(
+    aside / np.tan(radians(30)) - up, 1e-6, "the right triangle of D, with 30° at the cam centre",
+    {"from D down to the line of motion is the leg divided by tan 30°, not times it": aside * np.tan(radians(30)) - up,
+     "the depth is counted from the start of the lift: subtract the height of D": aside / np.tan(radians(30)),
+     "NumPy's tan takes radians": aside / np.tan(30) - up},
+)
+
+# %% tags=["try-it"]
+your_depths = None  # mm of paper, one for each station of the rise, from heights and segments
+depth_lines.check(your_depths)
+
+# %% tags=["hide-input"]
+depths = segments / np.tan(radians(30)) - heights
+print(f"deepest: station {depths.argmax()}, {depths.max():.2f} mm of paper below the start; v is greatest at station {segments.argmax()}")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert depth_lines.check(depths).status == "right"
+assert depths.argmax() <= segments.argmax()
+
+# %% [markdown]
 # The return's curve lies on the other side, so its tangent leans the other way, at its own limit of 50°. And there is
 # a third line, easily forgotten: in the lower dwell the follower does not move, $v = s = 0$, yet the cam still
 # supports it, and the angle there is $\tan\alpha = -\sigma e/s_0$. Its point $D_0$ is the start of the lift, and the

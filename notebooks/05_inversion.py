@@ -30,7 +30,7 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, changed, lesson_task, show_steps, table
+from graphcam.notebooks import ArrayQuestion, Question, changed, lesson_task, show_steps, table
 
 # %% [markdown]
 # ## Background: stop the cam
@@ -55,6 +55,11 @@ from graphcam.notebooks import Question, changed, lesson_task, show_steps, table
 #
 # The follower's line does not pass through the centre but at the distance $e$. In every turned position it touches the *offset circle* of
 # the radius $|e|$. So divide the offset circle, not the prime circle, and draw tangents.
+#
+# **Predict.** In which sense round the fixed cam do you meet the phases in their order, with the rotation of the cam or against it? Sketch the cam, the
+# rise and the return on their sides, before you look.
+#
+# **Draw it.** `graphcam solve task.toml --upto angle_diagram --out half` prints the sheet with all diagrams; the profile's place is empty.
 
 # %%
 task = lesson_task("task.toml", "translating")
@@ -68,18 +73,33 @@ show_steps(solution.drawn["inversion"], within=solution)
 # - **Laying $s$ off from the offset circle.** The foot of the tangent is at the height 0, the lowest position of the trace point at
 #   the height $s_0$: where the tangent meets the *prime circle*. From there $s$ is laid off.
 #
-# **The same in three lines.** A turn is a product with a complex number, so all stations are inverted at once:
+# **Write it.** A turn is a product with a complex number, so all stations are inverted at once: compute the points of the pitch curve as complex numbers,
+# in mm, the cam centre at 0 and the follower's motion upwards. One line is enough.
 
 # %%
 s = solution.drawn["integration"].readings["s"].value
 phi = solution.drawn["acceleration"].points["axis"].real * float(solution.drawn["acceleration"].readings["base"].scale)
 sigma, e, r0 = {"ccw": 1, "cw": -1}[task.rotation], solution.cam.follower.offset, solution.cam.prime_radius
-pitch_points = (e + 1j * (np.sqrt(r0**2 - e**2) + s)) * np.exp(-1j * sigma * phi)
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
 read = solution.drawn["inversion"].readings
-print(f"farthest from the points of the drawing: {np.abs(pitch_points - (read['x'].value + 1j * read['y'].value)).max():.1e} mm")
+drawn_points = read["x"].value + 1j * read["y"].value
+usual = {"the frame is turned with the cam: that is the mirror image": drawn_points * np.exp(2j * sigma * phi),
+         "s was added to r₀ as if the follower were central": (e + 1j * (r0 + s)) * np.exp(-1j * sigma * phi),
+         "s was laid off from the offset circle": (e + 1j * s) * np.exp(-1j * sigma * phi)}
+pitch_curve = ArrayQuestion(drawn_points, 1e-6, "the formula of the background: where the trace point is in the frame, and how the frame is turned", usual)
+
+# %% tags=["try-it"]
+your_pitch_points = None  # complex numbers, mm, one for each station, from s, phi, sigma, e and r0
+pitch_curve.check(your_pitch_points)
+
+# %% tags=["hide-input"]
+pitch_points = (e + 1j * (np.sqrt(r0**2 - e**2) + s)) * np.exp(-1j * sigma * phi)
+print(f"farthest from the points of the drawing: {np.abs(pitch_points - drawn_points).max():.1e} mm")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-assert np.abs(pitch_points - (read["x"].value + 1j * read["y"].value)).max() < 1e-9
+assert pitch_curve.check(pitch_points).status == "right"
+assert np.abs(pitch_points - drawn_points).max() < 1e-9
 
 # %% [markdown]
 # The working profile comes last: circles of the roller radius about points of the pitch curve, and their inner envelope.

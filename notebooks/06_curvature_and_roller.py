@@ -29,7 +29,7 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, changed, compared, lesson_task, show_steps, table
+from graphcam.notebooks import ArrayQuestion, Question, changed, compared, lesson_task, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -57,6 +57,11 @@ from graphcam.notebooks import Question, changed, compared, lesson_task, show_st
 # again.
 #
 # ## The construction
+#
+# **Predict.** Where is the pitch curve sharpest: where the follower is lowest, on a flank, or near the top? Mark the place on your drawing of
+# notebook 5 before you look.
+#
+# **Draw it.** `graphcam solve task.toml --upto inversion --out half` prints the sheet with the pitch curve.
 
 # %%
 task = lesson_task("task.toml", "translating", "oscillating")
@@ -65,21 +70,37 @@ curvature = solution.drawn["curvature"]
 show_steps(curvature, within=solution)
 
 # %% [markdown]
-# **The same in four lines.** Three points as complex numbers; the centre is as far from the first as from the other two:
+# **Write it.** Three points as complex numbers, in mm of paper: the centre is as far from the first as from the other two. Compute the centre, as a
+# complex number too, and the radius. Four lines are enough: count from the first point.
 
 # %%
+first_point, middle_point, last_point = map(complex, curvature.points["triple"])
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+drawn_centre, drawn_rho = complex(curvature.points["centre"]), float(curvature.readings["rho"].paper)
+circle = ArrayQuestion(
+    (drawn_centre, drawn_rho), 1e-6, "the bisectors: where is what lies as far from the first point as from the second?",
+    {"the centre is counted from the first point: add it": (drawn_centre - first_point, drawn_rho), "that is the diameter": (drawn_centre, 2 * drawn_rho)},
+)
+
+# %% tags=["try-it"]
+your_circle = None  # (centre, radius), mm of paper, from first_point, middle_point and last_point
+circle.check(your_circle)
+
+# %% tags=["hide-input"]
 def through(a, b, c):
     """Centre and radius of the circle through three points."""
     p, q = b - a, c - a
-    centre = a + 1j * (abs(p) ** 2 * q - abs(q) ** 2 * p) / (2 * (p.conjugate() * q).imag)
+    centre = a + 1j * (abs(q) ** 2 * p - abs(p) ** 2 * q) / (2 * (p.conjugate() * q).imag)
     return centre, abs(centre - a)
 
 
-centre, radius = through(*map(complex, curvature.points["triple"]))
+centre, radius = through(first_point, middle_point, last_point)
 print(f"radius {radius:.3f} mm of paper; on the drawing {float(curvature.readings['rho'].paper):.3f} mm")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-assert abs(radius - float(curvature.readings["rho"].paper)) < 1e-9
+assert circle.check((centre, radius)).status == "right"
+assert abs(radius - drawn_rho) < 1e-9
 assert abs(through(0j, 30 + 8j, 60 + 0j)[1] - abs(float(gc.circumradius([0, 0], [30, 8], [60, 0])))) < 1e-9
 
 # %% [markdown]

@@ -45,6 +45,8 @@ from graphcam.notebooks import Question, changed, compared, show_steps, table
 #   from $G$ on the line $GC_2$ to a point $P$; then $C_3$ is equally far from $P$ and from $C_1$: on the bisector of $PC_1$.
 #
 # ## The construction
+#
+# **Predict.** Where on a flank does the acceleration jump, and how often? Mark the places on a sketch of the profile before you look.
 
 # %%
 task = gc.builtin_arcs_task()

@@ -28,7 +28,18 @@ from IPython.display import Markdown
 import graphcam as gc
 from graphcam.drafting.ink import reading
 from graphcam.mechanism.forces import jamming_angle
-from graphcam.notebooks import Question, Slider, changed, chart, explore, lesson_task, picture_of, show_steps, table
+from graphcam.notebooks import (
+    ArrayQuestion,
+    Question,
+    Slider,
+    changed,
+    chart,
+    explore,
+    lesson_task,
+    picture_of,
+    show_steps,
+    table,
+)
 from graphcam.tasks.task import SpringTable
 
 # %% [markdown]
@@ -84,18 +95,38 @@ Markdown(f"The spring is weakest, beside what is needed, at $\\varphi = {degrees
          f"but $m\\omega^2|a| = {inertia:.1f}$ N with $a = {worst_a:.1f}$ mm/rad². The missing {least.preload:.1f} N are the preload.")
 
 # %% [markdown]
-# **The same in two lines**, from the readings of the drawing:
+# **Write it.** From the readings of the drawing compute at every station by how much the spring without preload is too weak, in N; negative
+# where it is strong enough. The maximum of these is the preload. One line is enough.
 
 # %%
 read = solution.drawn["integration"].readings
-lowest_a = np.minimum(read["a_before"].value, read["a"].value)  # before and after a jump
-print(f"minimum preload {max(-mass * omega**2 * lowest_a / 1000 - stiffness * read['s'].value):.1f} N at the stations, {least.preload:.1f} N exactly")
+drawn_s, lowest_a = read["s"].value, np.minimum(read["a_before"].value, read["a"].value)  # before and after a jump
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+weak_by = -mass * omega**2 * lowest_a / 1000 - stiffness * drawn_s
+missing_force = ArrayQuestion(
+    weak_by, 1e-6, "the two curves of the figure: what is needed, less what the spring gives",
+    {"mm/s² are thousandths of m/s²": -mass * omega**2 * lowest_a - stiffness * drawn_s,
+     "the spring is needed where a is negative": mass * omega**2 * lowest_a / 1000 - stiffness * drawn_s, "the difference is the other way round": -weak_by},
+)
+
+# %% tags=["try-it"]
+your_missing_force = None  # N, one for each station, from mass, omega, lowest_a, stiffness and drawn_s
+missing_force.check(your_missing_force)
+
+# %% tags=["hide-input"]
+missing = -mass * omega**2 * lowest_a / 1000 - stiffness * drawn_s
+print(f"minimum preload {max(missing):.1f} N at the stations, {least.preload:.1f} N exactly")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert missing_force.check(missing).status == "right"
 assert abs(design.least.preload - least.preload) < 1e-9
 assert abs(inertia - stiffness * worst_s - least.preload) < 1e-6
 
 # %% [markdown]
+# **Predict.** A cam drives the same follower once with a pressure angle of 0 and once of 30°: by how many per cent is the contact force larger? And what
+# carries the difference?
+#
 # **The force plan.** At a station all forces on the follower are in equilibrium: the load $Q$ (inertia, spring, preload) along the motion, the contact force $F$ along the normal,
 # at the pressure angle $\alpha$, and the reaction of the guide across the motion. Three directions and one magnitude are known, which determine a triangle. It is similar to the
 # velocity plan of notebook 3.

@@ -25,7 +25,7 @@ import math
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, chart, compared, explore, picture_of, show_steps, table
+from graphcam.notebooks import ArrayQuestion, Question, Slider, chart, compared, explore, picture_of, show_steps, table
 from graphcam.tasks.task_file import task_from
 
 # %% [markdown]
@@ -71,14 +71,39 @@ show_steps(solution.drawn["analysis"], within=solution)
 show_steps(solution.drawn["differentiation"], 2, 3, 5, 6, within=solution)
 
 # %% [markdown]
-# The same in four lines of NumPy: the chords of $s$ are the velocities in the middles, their chords the accelerations at the stations.
+# **Write it.** The displacement was measured every 5° over the whole turn: compute the slopes of its chords, which are the velocities in the middles of the
+# parts, and from these in the same way the accelerations at the stations. After the last station comes the first. Two lines are enough; `np.roll` goes round.
 
 # %%
 motion, step = gc.outline_motion(cam, gc.Translating(roller_radius=16)), math.radians(5)
 s = motion(np.arange(0, 2 * math.pi, step))[0]
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+slopes = np.diff(np.concatenate([s[-1:], s, s[:1]])) / step
+chord_slopes = ArrayQuestion(
+    slopes[1:], 1e-9, "the rise of a chord over its width",
+    {"the width must be in radians": slopes[1:] * step / 5, "a chord runs from its station to the next one": slopes[:-1]},
+)
+chord_accelerations = ArrayQuestion(
+    np.diff(slopes) / step, 1e-6, "the two chords of v that meet at a station",
+    {"that belongs to the next station": np.roll(np.diff(slopes) / step, -1)},
+)
+
+# %% tags=["try-it"]
+your_velocities = None  # mm/rad, from each station to the next, from s and step
+chord_slopes.check(your_velocities)
+
+# %% tags=["try-it"]
+your_accelerations = None  # mm/rad², at the stations, from your_velocities and step
+chord_accelerations.check(your_accelerations)
+
+# %% tags=["hide-input"]
 v = (np.roll(s, -1) - s) / step
 a = (v - np.roll(v, 1)) / step
 print(f"maximum v {v.max():.2f} mm/rad, maximum a {a.max():.2f} mm/rad²")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert chord_slopes.check(v).status == chord_accelerations.check(a).status == "right"
 
 # %% [markdown]
 # ## The same cam, another follower
@@ -185,9 +210,9 @@ phi = np.radians(np.linspace(-10, 150, 3201))
 exact = motion(phi % (2 * math.pi))[2]
 figure, axes = chart("φ, °", "a, mm/rad²", 2.8)
 axes.plot(np.degrees(phi), exact, color="#b3201c", label="exact")
-stations = np.arange(a.size) * 5.0
+stations, chorded = np.arange(s.size) * 5.0, np.diff(np.concatenate([s[-1:], s, s[:1]]), 2) / step**2
 shown = stations <= 150
-axes.plot(stations[shown], a[shown], "o", markersize=3, color="#5a5a5a", label="chords of chords, 5°")
+axes.plot(stations[shown], chorded[shown], "o", markersize=3, color="#5a5a5a", label="chords of chords, 5°")
 axes.legend(fontsize=8)
 picture_of(figure, "The acceleration over the cam angle. On the flank it grows from 44 to 72 mm/rad², at the nose it jumps to about -19 and falls to -37; at the end of the rise it is symmetrical. The points of the "
            "chords lie on the curve but beside the jumps, where they lie between the two values.", "Chords bridge a jump: a point beside it lies between its two sides")

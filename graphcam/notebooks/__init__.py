@@ -3,6 +3,7 @@
 In a notebook: :func:`~graphcam.notebooks.construction_stages.show_steps` and
 :func:`~graphcam.notebooks.construction_stages.drawing`, :func:`~graphcam.notebooks.shown_tables.compared`,
 :func:`~graphcam.notebooks.construction_stages.chart`, :class:`~graphcam.notebooks.question.Question`,
+:class:`~graphcam.notebooks.question.ArrayQuestion`,
 :func:`~graphcam.notebooks.explore.explore`, :func:`~graphcam.notebooks.explore.changed` and
 :func:`~graphcam.notebooks.explore.lesson_task`.
 
@@ -19,10 +20,11 @@ from graphcam.notebooks.construction_stages import (
     show_steps,
 )
 from graphcam.notebooks.explore import Slider, changed, explore, lesson_task
-from graphcam.notebooks.question import Question, kept_questions
+from graphcam.notebooks.question import ArrayQuestion, Question, kept_questions
 from graphcam.notebooks.shown_tables import compared, error_budget, table
 
 __all__ = [
+    "ArrayQuestion",
     "Picture",
     "Question",
     "Slider",

@@ -22,7 +22,7 @@ from nbformat import NotebookNode
 from graphcam.files import whole_folder
 from graphcam.notebooks.notebook_execution import MAY_FAIL, NotebookError, execute
 from graphcam.notebooks.notebook_folder import check_browser, to_html, write_page
-from graphcam.notebooks.question import QUESTIONS_FILE, Question, kept_questions, kept_text
+from graphcam.notebooks.question import QUESTIONS_FILE, AnyQuestion, Question, kept_questions, kept_text
 from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -32,26 +32,26 @@ from graphcam.workers import executor_of, ordered_results
 
 STUDENT_FOLDER, TEACHER_FOLDER = "student", "teacher"
 CHECK_PATTERN = re.compile(r"^(?P<answer>your_\w+) = None.*\n(?P<question>\w+)\.check\((?P=answer)\)\s*$")
-"""A cell in which the student puts a number."""
-QUESTION_PATTERN = re.compile(r"^(\w+) = Question\b", re.MULTILINE)
+"""A cell in which the student puts a number, or lines that give an array."""
 MODEL_ANSWERS_PATTERN = re.compile(r"\s*<details><summary>Model answers</summary>.*?</details>", re.DOTALL)
 CLOSING_QUESTION_PATTERN = re.compile(r"^(\d+)\. ", re.MULTILINE)
 FAILED_LINE_PATTERN = re.compile(r"^-+> *\d+ (.*)$", re.MULTILINE)
 TERMINAL_COLOUR_PATTERN = re.compile(r"\x1b\[[0-9;]*m")
 """What a traceback marks the line with that failed, and what colours it."""
-OF_AUTHOR, OF_STUDENT = "remove-cell", "try-it"
-"""Tags of the cells that hold the author's checks, and the student's numbers."""
+OF_AUTHOR, OF_STUDENT, MODEL_LINES = "remove-cell", "try-it", "hide-input"
+"""Tags of the cells that hold the author's checks, the student's numbers and lines, and the lines of a model answer."""
 GRADED = {"schema_version": 3, "grade": True, "solution": False, "locked": True, "task": False, "points": 1}
 """What nbgrader wants to know of a cell that gives a mark."""
 KEEPING_CODE = """\
 import json, pathlib
-from graphcam.notebooks.question import Question, kept_text
-kept = {{name: kept_text([found]) for name, found in list(globals().items()) if isinstance(found, Question)}}
+from graphcam.notebooks.question import ArrayQuestion, Question, kept_text
+asked = {{name: found for name, found in globals().items() if isinstance(found, Question | ArrayQuestion)}}
+kept = {{name: kept_text([found]) for name, found in asked.items()}}
 pathlib.Path("{file}").write_text(json.dumps(kept))"""
 FOR_STUDENTS = """\
 > Draw first, then put your number in the place of `None` and run the cell: it answers with a hint. Write a number, \
-such as 12.3 or "12,3 mm", not a formula. Answer the closing questions in the cells below them, and hand in this \
-file."""
+such as 12.3 or "12,3 mm", not a formula; where lines of code are asked for, put them there. Answer the closing \
+questions in the cells below them, and hand in this file."""
 
 
 def course_source() -> Path:
@@ -72,13 +72,14 @@ class Lesson:
 
     name: str
     teacher: NotebookNode
-    questions: Mapping[str, Question]
+    questions: Mapping[str, AnyQuestion]
     doubts: tuple[str, ...] = ()
 
     @property
     def answers(self) -> dict[str, Question]:
-        """The questions by the names of the student's numbers, in their order."""
-        return {found["answer"]: self.questions[found["question"]] for found in _checks(self.teacher)}
+        """The questions for a number by the names of the student's numbers, in their order."""
+        asked = ((found["answer"], self.questions[found["question"]]) for found in _checks(self.teacher))
+        return {answer: question for answer, question in asked if isinstance(question, Question)}
 
     @property
     def student(self) -> NotebookNode:
@@ -99,13 +100,13 @@ class Lesson:
                 numbers = CLOSING_QUESTION_PATTERN.findall(text[text.index("## Questions") :])
                 yield from (self._closing_answer(number) for number in numbers)
         elif asked := [
-            name for name in self.questions if re.search(rf"^{name} = Question\b", cell.source, re.MULTILINE)
+            name for name in self.questions if re.search(rf"^{name} = (?:Array)?Question\b", cell.source, re.MULTILINE)
         ]:
             kept = kept_text([self.questions[name] for name in asked])
             names = ", ".join(asked) + "," * (len(asked) == 1)
             code = f'from graphcam.notebooks import kept_questions\n\n{names} = kept_questions("{kept}")'
             yield _copy(cell, code)
-        elif OF_AUTHOR not in tags:
+        elif OF_AUTHOR not in tags and MODEL_LINES not in tags:
             yield _copy(cell)
             if OF_STUDENT in tags and (found := CHECK_PATTERN.match(cell.source)):
                 yield self._mark(found["question"], found["answer"])

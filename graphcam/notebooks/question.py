@@ -1,4 +1,4 @@
-"""Questions in a notebook: an answer gets a verdict or a hint, never the number."""
+"""Questions in a notebook, for a number or for an array: an answer gets a verdict or a hint, never the number."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.comparison.bounds import CAREFUL_PENCIL, HonestRange, honest_range
 from graphcam.comparison.quantities import DEGREES_PER_RADIAN, Quantity, told_unit
@@ -219,24 +220,94 @@ class Question:
         return self.tolerance * max(1.0, abs(wrong / self.value) if self.value else 1.0)
 
 
-def kept_text(questions: Sequence[Question]) -> str:
+@dataclass(frozen=True)
+class ArrayQuestion:
+    """An array that a few lines of the reader's code are to give, with hints for the mistakes that are usually made.
+
+    values : (n,) numbers, or places as complex numbers
+    tolerance : by which each may differ
+    look : where to look again
+    mistakes : hints by the wrong array that each belongs to
+
+    Its verdicts are in English, as the notebooks are that ask for code.
+
+    >>> ends = ArrayQuestion([0.0, 2.0, 6.0], 0.01, "the chord's climb", {"the pole is forgotten": [0.0, 80.0, 240.0]})
+    >>> [ends.check(given).status for given in (None, [0, 2, 6], (0, 2.001, 6))]
+    ['open', 'right', 'right']
+    >>> print(ends.check([0, 80, 240]).text)
+    Not yet: the pole is forgotten. Look again at the chord's climb.
+    >>> print(ends.check([0, 2, 5]).text)
+    Not yet: value 3 of 3 is the first that is not right. Look again at the chord's climb.
+    """
+
+    values: Sequence[complex]
+    tolerance: float
+    look: str
+    mistakes: Mapping[str, Sequence[complex]] = field(default_factory=dict[str, Sequence[complex]])
+
+    def check(self, answer: object) -> Verdict:
+        """The verdict on an array, or on anything that NumPy makes one of; on ``None`` an invitation."""
+        if answer is None:
+            return Verdict(OPEN_VERDICT, "Your turn: put your lines in the place of None, and run this cell.")
+        right = np.asarray(self.values, dtype=np.complex128)
+        try:
+            given = np.asarray(answer, dtype=np.complex128)
+        except (TypeError, ValueError):
+            return Verdict(WRONG_VERDICT, "Not yet: that is no array of numbers.")
+        if given.shape != right.shape:
+            shapes = f"your array has the shape {given.shape}, and should have {right.shape}"
+            return Verdict(WRONG_VERDICT, f"Not yet: {shapes}.")
+        off = np.flatnonzero(~self._near(given, right))
+        if not off.size:
+            return Verdict(RIGHT_VERDICT, "Right.")
+        wrong = {hint: np.asarray(values, dtype=np.complex128) for hint, values in self.mistakes.items()}
+        first = f"value {off[0] + 1} of {right.size} is the first that is not right"
+        hint = next((hint for hint, values in wrong.items() if self._near(given, values).all()), first)
+        return Verdict(WRONG_VERDICT, f"Not yet: {hint}. Look again at {self.look}.")
+
+    def _near(self, given: NDArray[np.complex128], right: NDArray[np.complex128]) -> NDArray[np.bool_]:
+        """Which values differ by no more than the tolerance; what is not finite is not near."""
+        return np.abs(given - right) <= self.tolerance
+
+
+AnyQuestion = Question | ArrayQuestion
+
+
+def kept_text(questions: Sequence[AnyQuestion]) -> str:
     """Questions as one text, so that who reads a notebook does not read their answers: no secret, but out of sight."""
-    fields = [
-        [getattr(question, name) if name != "mistakes" else dict(question.mistakes) for name in KEPT_FIELDS]
-        for question in questions
-    ]
-    return base64.b64encode(zlib.compress(json.dumps(fields, ensure_ascii=False).encode(), 9)).decode("ascii")
+    kept = json.dumps([_kept_fields(question) for question in questions], ensure_ascii=False)
+    return base64.b64encode(zlib.compress(kept.encode(), 9)).decode("ascii")
 
 
-def kept_questions(text: str) -> tuple[Question, ...]:
+def _kept_fields(question: AnyQuestion) -> list[Any] | dict[str, Any]:
+    """What JSON can hold of a question: of a number a list, of an array a table, in which places are pairs."""
+    if isinstance(question, Question):
+        return [getattr(question, name) if name != "mistakes" else dict(question.mistakes) for name in KEPT_FIELDS]
+    mistakes = {hint: _pairs(wrong) for hint, wrong in question.mistakes.items()}
+    return vars(question) | {"values": _pairs(question.values), "mistakes": mistakes}
+
+
+def _pairs(values: Sequence[complex]) -> list[list[float]]:
+    return [[number.real, number.imag] for number in map(complex, values)]
+
+
+def kept_questions(text: str) -> tuple[AnyQuestion, ...]:
     """The questions that :func:`kept_text` kept.
 
-    >>> (radius,) = kept_questions(kept_text([Question(43.28, 0.6, "mm", "step 5", {"on paper": 72.13})]))
-    >>> radius.check(43.0).status, radius.mistakes
-    ('right', {'on paper': 72.13})
+    >>> asked = Question(43.28, 0.6, "mm", "step 5", {"on paper": 72.13}), ArrayQuestion([1, 2j], 0.1, "step 6")
+    >>> radius, places = kept_questions(kept_text(asked))
+    >>> radius.check(43.0).status, radius.mistakes, places.check([1, 2j]).status
+    ('right', {'on paper': 72.13}, 'right')
     """
-    fields = json.loads(zlib.decompress(base64.b64decode(text)))
-    return tuple(Question(**dict(zip(KEPT_FIELDS, each, strict=True))) for each in fields)
+    return tuple(map(_kept_question, json.loads(zlib.decompress(base64.b64decode(text)))))
+
+
+def _kept_question(fields: list[Any] | dict[str, Any]) -> AnyQuestion:
+    if isinstance(fields, list):
+        return Question(**dict(zip(KEPT_FIELDS, fields, strict=True)))
+    mistakes = {hint: [complex(*pair) for pair in wrong] for hint, wrong in fields["mistakes"].items()}
+    values = [complex(*pair) for pair in fields["values"]]
+    return ArrayQuestion(values, fields["tolerance"], fields["look"], mistakes)
 
 
 def _number(given: object, unit: str) -> float | None:

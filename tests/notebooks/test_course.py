@@ -73,6 +73,33 @@ def test_a_notebook_has_its_parts_and_asserts_a_number(name):
     assert all(re.fullmatch(r"(your_\w+) = None  # .+\n\w+\.check\(\1\)\n?", cell) for cell in tried)
 
 
+BEATS = dict.fromkeys(("01", "02", "03", "04", "05", "06"), "pdw") | {"08": "p", "09": "pw", "13": "pw"}
+"""By notebook whether it lets predict a construction, draw it on a half-done sheet, and write its method."""
+MAX_MODEL_LINES = 8
+
+
+@over_all("name", [name for name in COURSE if name[:2] in BEATS])
+def test_a_construction_is_predicted_drawn_written_and_compared(name):
+    cells = jupytext.read(FOLDER / f"{name}.py").cells
+    text = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    beats = BEATS[name[:2]]
+    assert ("**Predict" in text) is ("p" in beats)
+    assert ("--upto" in text) is ("d" in beats)
+    assert ("**Write it.**" in text) is ("w" in beats)
+    # What is printed half-done ends with a construction that the sheet has.
+    upto = re.findall(r"--upto (\w+)", text)
+    assert set(upto) <= set(gc.solve(gc.builtin_task()).drawn)
+    lines = [cell.source for cell in cells if "hide-input" in cell.metadata.get("tags", ())]
+    assert len(lines) == ("w" in beats)
+    for source in lines:
+        body = [line for line in source.splitlines() if line.strip() and not line.strip().startswith(('"""', "print("))]
+        assert len(body) <= MAX_MODEL_LINES
+    # The model lines are judged by the questions that ask for them, where the notebook is executed.
+    asked = re.findall(r"^(\w+) = ArrayQuestion\(", "\n".join(cell.source for cell in cells), re.MULTILINE)
+    checked = "\n".join(cell.source for cell in cells if "remove-cell" in cell.metadata.get("tags", ()))
+    assert all(f"{question}.check(" in checked for question in asked)
+
+
 def test_the_hard_cases_of_the_course_are_those_of_the_table():
     """So the values that notebook 7 compares with are computed by mpmath at 50 digits, as all of the table's are."""
     shown = tomllib.loads((FOLDER / "hard_cases.toml").read_text(encoding="utf-8"))["case"]

@@ -13,7 +13,8 @@ import graphcam as gc
 from graphcam.drafting.acts import Kind
 from graphcam.drafting.ink import reading
 from graphcam.language import language
-from graphcam.notebooks import Question, changed
+from graphcam.notebooks import ArrayQuestion, Question, changed, kept_questions
+from graphcam.notebooks.question import kept_text
 
 RADIUS = Question(43.28, 0.6, "mm", "step 5", {"the pole distance is forgotten": 1731.2})
 
@@ -43,6 +44,37 @@ def test_a_mistake_gets_its_hint_and_not_the_number(answer, status, hint):
     assert (verdict.status, hint in verdict.text) == (status, True)
     assert "43" not in verdict.text
     assert re.search(r"step 5|Your turn|Right|finite", verdict.text)
+
+
+PLACES = ArrayQuestion(
+    np.array([0, 3 + 4j, -2.5]), 1e-3, "the formula", {"that is the mirror image": [0, 3 - 4j, -2.5]}
+)
+
+
+@pytest.mark.parametrize(
+    ("answer", "status", "hint"),
+    [
+        (None, "open", "Your turn"),
+        ([0, 3 + 4j, -2.5], "right", "Right"),
+        (np.array([0, 3 + 4.0005j, -2.5]), "right", "Right"),
+        ((0, 3 - 4j, -2.5), "wrong", "the mirror image"),
+        ([0, 3 + 4j, -2.6], "wrong", "value 3 of 3 is the first"),
+        ([0, 3 + 4j, float("nan")], "wrong", "value 3 of 3 is the first"),
+        ([0, 3 + 4j], "wrong", "the shape (2,), and should have (3,)"),
+        (5.0, "wrong", "the shape ()"),
+        ([[0, 3 + 4j, -2.5]], "wrong", "the shape (1, 3)"),
+        ("by_pole", "wrong", "no array of numbers"),
+        ([1, [2, 3]], "wrong", "no array of numbers"),
+        (lambda: 0, "wrong", "no array of numbers"),
+        (..., "wrong", "no array of numbers"),
+    ],
+)
+def test_lines_of_code_are_judged_by_what_they_give(answer, status, hint):
+    (kept,) = kept_questions(kept_text([PLACES]))
+    for question in (PLACES, kept):
+        verdict = question.check(answer)
+        assert (verdict.status, hint in verdict.text) == (status, True)
+        assert "2.5" not in verdict.text
 
 
 @pytest.mark.parametrize(

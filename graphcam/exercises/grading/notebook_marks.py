@@ -54,13 +54,18 @@ def course_questions(folder: Path) -> Questions:
     path = folder.resolve().parent / TEACHER_FOLDER / QUESTIONS_FILE
     try:
         kept = json.loads(path.read_bytes())
-        return {name: {a: kept_questions(text)[0] for a, text in asked.items()} for name, asked in kept.items()}
+        return {name: _number_questions(asked) for name, asked in kept.items()}
     except OSError:
         return {}
     except (ValueError, TypeError, AttributeError, IndexError) as error:
         limit = say("as 'graphcam notebook --course' wrote it")
         remedy = say("write the course again into another folder, and copy its teacher's folder")
         raise TaskError(str(path), say("the file"), say("damaged"), limit, remedy) from error
+
+
+def _number_questions(asked: Mapping[str, str]) -> dict[str, Question]:
+    found = {answer: kept_questions(text)[0] for answer, text in asked.items()}
+    return {answer: question for answer, question in found.items() if isinstance(question, Question)}
 
 
 def marked_numbers(folder: Path, questions: Questions) -> list[MarkedNumber]:
