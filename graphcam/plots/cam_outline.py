@@ -10,7 +10,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.three_arc_cam import ThreeArcCam
-from graphcam.plots.figures import axes_on
+from graphcam.plots.figures import axes_on, size_of
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 FIGURE_SIZE = 6.0, 6.5
@@ -19,6 +19,8 @@ PIECE_POINTS = 181
 """The number of points of each curve between two breaks."""
 LEGEND_ROOM = 0.22
 """Room for the legend, as a part of the cam's height."""
+MIN_HEIGHT = 3.5
+"""The minimum height of axes [inches] with a legend below the cam."""
 FACE_HALF_LENGTH = 0.5
 """Half of the drawn face, as a part of the prime radius."""
 SENSE_NAMES = {"ccw": "anticlockwise", "cw": "clockwise"}
@@ -65,10 +67,16 @@ def mark_centre(axes: Axes, unnamed: str) -> None:
 
 
 def finish_axes(axes: Axes) -> Axes:
-    """Set equal scales and axis labels, and put the legend below the cam, in room of its own; returns the axes."""
+    """Set equal scales and axis labels, and put the legend below the cam, in room of its own; returns the axes.
+
+    Low axes have no legend: there is no room for one, and ``axes.legend()`` puts it where the caller wants it.
+    """
     axes.autoscale()
+    axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal")
+    if size_of(axes)[1] < MIN_HEIGHT:
+        return axes
     bottom, top = axes.get_ylim()
-    axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - LEGEND_ROOM * (top - bottom), top))
+    axes.set_ylim(bottom - LEGEND_ROOM * (top - bottom), top)
     axes.legend(loc="lower center", ncols=2, frameon=False, fontsize="small")
     return axes
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from io import StringIO
 from typing import Any
 
@@ -16,6 +17,11 @@ from graphcam.words import say
 
 DIAGRAM_GAP = 0.03
 """The gap between diagrams one under the other, as a part of the axes."""
+ANGLE_LABEL = "cam angle φ, degrees"
+NAME_OFFSET, LETTER_WIDTH = -0.6, 0.08
+"""How far the names of ordinates stand from their axis, and how wide their letters are [inches]."""
+TURN_STEPS, MIN_STEP_WIDTH = (30, 60, 90), 0.36
+"""Steps of the cam angle [degrees], and how wide one must be at least [inches]."""
 MAX_WIDTH = 12.0
 """The maximum width of a new figure [inches]: a larger drawing is shown reduced."""
 
@@ -64,6 +70,34 @@ def diagrams_in(axes: Axes, count: int) -> list[Axes]:
     axes.set_axis_off()
     height = (1 + DIAGRAM_GAP) / count
     return [axes.inset_axes((0.0, k * height, 1.0, height - DIAGRAM_GAP)) for k in reversed(range(count))]
+
+
+def size_of(axes: Axes) -> tuple[float, float]:
+    """Width and height of axes [inches]."""
+    box, figure = axes.get_position(), axes.get_figure(root=True)
+    width, height = figure.get_size_inches() if figure is not None else (0.0, 0.0)
+    return float(box.width * width), float(box.height * height)
+
+
+def divide_turn(axes: Axes, diagrams: Sequence[Axes], label: str) -> None:
+    """Let diagrams inside of axes go over the turn, divided as finely as their width permits, the last one named."""
+    width, _ = size_of(axes)
+    step = next(step for step in TURN_STEPS if width * step / 360 >= MIN_STEP_WIDTH or step == TURN_STEPS[-1])
+    for diagram in diagrams:
+        diagram.set(xlim=(0, 360), xticks=range(0, 361, step))
+        diagram.spines[["top", "right"]].set_visible(False)
+        diagram.tick_params(labelbottom=diagram is diagrams[-1])
+    diagrams[-1].set_xlabel(label)
+
+
+def name_ordinates(axes: Axes, diagrams: Sequence[Axes], names: Sequence[str], symbols: Sequence[str]) -> None:
+    """Name the ordinates of diagrams inside of axes; where there is no room for names, by their symbols."""
+    width, height = size_of(axes)
+    low = max(map(len, names)) * LETTER_WIDTH > height / len(diagrams)
+    for diagram, name, symbol in zip(diagrams, names, symbols, strict=True):
+        diagram.set_ylabel(symbol if low else name, rotation=0 if low else 90, va="center" if low else "bottom")
+        # They stand one under the other, however wide the numbers are.
+        diagram.yaxis.set_label_coords(NAME_OFFSET / width, 0.5)
 
 
 def svg_of(shown: Plottable) -> str:

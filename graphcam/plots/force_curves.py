@@ -12,15 +12,13 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.turn_extremes import TurnCurve, ValueAt, over_turn
-from graphcam.plots.figures import axes_on, diagrams_in
+from graphcam.plots.figures import ANGLE_LABEL, axes_on, diagrams_in, divide_turn, name_ordinates
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 FIGURE_SIZE = 7.0, 5.0
 """The size of a new figure of forces [inches]."""
 SIZE_OF_STRESS = 7.0, 3.6
 """The size of a new figure of stress [inches]."""
-AXIS_NAME_OFFSET = -0.11
-"""The horizontal place of the axis labels, as a part of the diagrams' width."""
 
 
 def plot(forces: CamForces, on: Axes | Figure | None = None, label: str = "", color: str | None = None) -> Axes:
@@ -34,13 +32,11 @@ def plot(forces: CamForces, on: Axes | Figure | None = None, label: str = "", co
             ("torque on the cam, N mm", lower, forces.torque, ACCENT),
         )
     }
-    for name, (diagram, curve, own) in curves.items():
+    for diagram, curve, own in curves.values():
         _draw(diagram, forces, curve, label, color or own)
-        diagram.set_ylabel(name)
-        diagram.yaxis.set_label_coords(AXIS_NAME_OFFSET, 0.5)
-    upper.tick_params(labelbottom=False)
+    divide_turn(axes, (upper, lower), ANGLE_LABEL)
+    name_ordinates(axes, (upper, lower), [*curves], ("N, N", "T, N mm"))
     upper.set_title(f"Forces at {forces.load.speed_rpm:g} rpm", fontsize="medium")
-    lower.set_xlabel("cam angle φ, degrees")
     return axes
 
 
@@ -51,7 +47,8 @@ def plot_stress(
     axes = axes_on(on, *SIZE_OF_STRESS)
     greatest = stress.max_pressure()
     _draw(axes, stress.forces, stress.curve(), label, color or ACCENT, greatest)
-    axes.set(xlabel="cam angle φ, degrees", ylabel="contact stress p, MPa")
+    divide_turn(axes, (axes,), ANGLE_LABEL)
+    axes.set_ylabel("contact stress p, MPa")
     axes.set_title(f"Contact stress at {stress.forces.load.speed_rpm:g} rpm", fontsize="medium")
     return axes
 
@@ -69,7 +66,5 @@ def _draw(
         at = np.degrees(marked.phi), marked.value
         diagram.plot(*at, "o", color=colour, markersize=4)
         diagram.annotate(f"{marked.value:.4g}", at, (4, 4), textcoords="offset points", color=colour)
-    diagram.set(xlim=(0, 360), xticks=range(0, 361, 30))
-    diagram.spines[["top", "right"]].set_visible(False)
     if label:
         diagram.legend(frameon=False, fontsize="small")

@@ -12,18 +12,16 @@ from numpy.typing import ArrayLike
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.motion_bands import MotionBands
-from graphcam.plots.figures import axes_on, diagrams_in
+from graphcam.plots.figures import ANGLE_LABEL, axes_on, diagrams_in, divide_turn, name_ordinates
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 CURVE_LABELS = (("lift s", BLACK), ("v = ds/dφ", CURRENT_COLOUR), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
 """Axis label and colour of each curve, from the top."""
-ANGLE_LABEL = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
+UNITS_LABEL = "s in mm, of an arm in rad; v, a and j per rad of cam angle"
 FIGURE_SIZE = 7.0, 7.0
 """The size of a new figure [inches]."""
 PIECE_POINTS = 61
 """The number of points of each curve between two breaks."""
-AXIS_NAME_OFFSET = -0.125
-"""The horizontal place of the axis labels, as a part of the diagram's width."""
 MIN_NAME_ANGLE, MIN_UPRIGHT_NAME_ANGLE = 28.0, 8.0
 """The minimum angles of a phase [degrees] for its name, and for its name turned upright."""
 
@@ -52,23 +50,19 @@ def plot(motion: PhasedMotion, on: Axes | Figure | None = None, label: str = "",
     second = bool(axes.child_axes)
     diagrams = diagrams_in(axes, len(CURVE_LABELS))
     phi, values = _curves(motion)
-    for diagram, (up, colour), value in zip(diagrams, CURVE_LABELS, values, strict=True):
+    for diagram, (_, colour), value in zip(diagrams, CURVE_LABELS, values, strict=True):
         diagram.plot(np.degrees(phi), value, color=color or colour, linewidth=1.5, label=label or None)
         if not second and not np.any(value):
             diagram.set(ylim=(-1.0, 1.0), yticks=[0.0])  # of no height there would be divisions of a hundredth
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         for _, start, _ in motion.timing:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
-        diagram.set(xlim=(0, 360), xticks=range(0, 361, 30), ylabel=up)
-        diagram.tick_params(labelbottom=diagram is diagrams[-1])
-        # Their labels stand one under the other, however wide the numbers are.
-        diagram.yaxis.set_label_coords(AXIS_NAME_OFFSET, 0.5)
-        diagram.spines[["top", "right"]].set_visible(False)
     if not second:
+        divide_turn(axes, diagrams, ANGLE_LABEL if axes is on else f"{ANGLE_LABEL}\n{UNITS_LABEL}")
+        name_ordinates(axes, diagrams, [name for name, _ in CURVE_LABELS], "svaj")
         _name_phases(diagrams[0], motion)
     if label:
         diagrams[0].legend(frameon=False, fontsize="small")
-    diagrams[-1].set_xlabel(ANGLE_LABEL)
     return axes
 
 
@@ -101,8 +95,6 @@ CURVE_SYMBOLS = "s", "v", "a"
 BAND_HEIGHT_SHARE = 0.12
 """The height of a band at its widest, as a part of the range of the nominal curve."""
 ROUND_FACTORS = 1.0, 2.0, 5.0, 10.0
-BAND_NAME_OFFSET = -0.12
-"""The horizontal place of the axis labels beside bands, as a part of the diagrams' width."""
 
 
 def plot_bands(bands: MotionBands, on: Axes | Figure | None = None, label: str = "", color: str | None = None) -> Axes:
@@ -110,7 +102,7 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None, label: str =
     axes = axes_on(on, *BAND_FIGURE_SIZE)
     diagrams = diagrams_in(axes, len(CURVE_SYMBOLS))
     degrees, sample = np.degrees(bands.phi), bands.sample
-    for k, (diagram, symbol) in enumerate(zip(diagrams, CURVE_SYMBOLS, strict=True)):
+    for k, diagram in enumerate(diagrams):
         nominal, half = bands.nominal[k], bands.half_width[k]
         times = magnification(nominal, half)
         low, high = nominal + times * sample.low[k], nominal + times * sample.high[k]
@@ -123,15 +115,12 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None, label: str =
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         for _, start, _ in bands.cam.motion.timing:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
-        diagram.set(xlim=(0, 360), xticks=range(0, 361, 30), ylabel=symbol)
-        diagram.tick_params(labelbottom=diagram is diagrams[-1])
-        diagram.yaxis.set_label_coords(BAND_NAME_OFFSET, 0.5)
-        diagram.spines[["top", "right"]].set_visible(False)
         diagram.text(
             1.01, 0.5, f"bands × {times:g}", rotation=90, transform=diagram.transAxes, va="center", color=ACCENT
         )
     diagrams[0].legend(frameon=False, fontsize="small", loc="best")
-    diagrams[-1].set_xlabel(ANGLE_LABEL.replace("; v, a and j", "; v and a"))
+    divide_turn(axes, diagrams, f"{ANGLE_LABEL}\n{UNITS_LABEL.replace('v, a and j', 'v and a')}")
+    name_ordinates(axes, diagrams, CURVE_SYMBOLS, CURVE_SYMBOLS)
     diagrams[0].set_title(f"{100 * bands.coverage:g} of 100 mechanisms lie within the bands", fontsize="medium")
     return axes
 

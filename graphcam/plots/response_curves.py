@@ -10,7 +10,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.follower_train import VibratingFollower
 from graphcam.mechanism.shock_response import FollowerResponse, ShockSpectrum
-from graphcam.plots.figures import axes_on, diagrams_in
+from graphcam.plots.figures import ANGLE_LABEL, axes_on, diagrams_in, divide_turn
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 FIGURE_SIZE = 7.0, 5.0
@@ -36,6 +36,7 @@ def plot(
         _response(shown, upper, lower, label or "mass", color)
     else:
         _turn(shown, upper, lower, label or "mass", color)
+        divide_turn(axes, (upper, lower), ANGLE_LABEL)
     for diagram in (upper, lower):
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         diagram.spines[["top", "right"]].set_visible(False)
@@ -87,11 +88,10 @@ def _turn(follower: VibratingFollower, upper: Axes, lower: Axes, label: str, col
             lost = "contact is lost" if number == 0 and turned == 0 else None
             lower.axvspan(*span, color=color or ACCENT, alpha=0.3, linewidth=0, label=lost)
     for diagram in (upper, lower):
-        diagram.set(xlim=(0, 360), xticks=range(0, 361, 30))
         for _, start, _ in follower.motion.timing:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
     upper.set_ylabel("acceleration, mm/rad²")
-    lower.set(ylabel="force, N", xlabel="cam angle φ, degrees")
+    lower.set_ylabel("force, N")
     upper.set_title(f"Elastic follower at {follower.speed_rpm:g} rpm", fontsize="medium")
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import pairwise
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib import pyplot
-from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.figure import Figure
 
 import graphcam as gc
@@ -274,3 +275,22 @@ def test_an_array_of_axes_is_told(solution):
             thing.plot(ax="left")
         with pytest.raises(TypeError, match="no argument 'axes' any more: write 'ax'"):
             thing.plot(axes=Figure().add_subplot())
+
+
+@pytest.mark.parametrize(
+    ("size", "names", "step"), [((7, 7), "name", 30), ((6, 2), "symbol", 30), ((3.5, 3), "symbol", 60)]
+)
+def test_on_low_axes_ordinates_have_symbols_and_the_turn_fewer_divisions(size, names, step):
+    axes = Figure(figsize=size).add_subplot()
+    motion = gc.builtin_task().motion()
+    diagrams = motion.plot(ax=axes).child_axes
+    assert [each.get_ylabel() for each in diagrams] == (
+        ["s", "v", "a", "j"] if names == "symbol" else ["lift s", "v = ds/dφ", "a = dv/dφ", "j = da/dφ"]
+    )
+    assert np.unique(np.diff(diagrams[-1].get_xticks())).tolist() == [step]
+    # No name stands on the next one.
+    canvas = FigureCanvasAgg(axes.figure)
+    canvas.draw()
+    boxes = [each.yaxis.label.get_window_extent(canvas.get_renderer()) for each in diagrams]
+    assert all(upper.y0 >= lower.y1 for upper, lower in pairwise(boxes))
+    assert all(box.x0 >= 0 for box in boxes)
