@@ -18,8 +18,8 @@ from graphcam.words import say
 DIAGRAM_GAP = 0.03
 """The gap between diagrams one under the other, as a part of the axes."""
 ANGLE_LABEL = "cam angle φ, degrees"
-NAME_OFFSET, LETTER_WIDTH = -0.6, 0.08
-"""How far the names of ordinates stand from their axis, and how wide their letters are [inches]."""
+NAME_OFFSET, SYMBOL_OFFSET, LETTER_WIDTH = -0.6, -0.48, 0.08
+"""How far names and symbols of ordinates stand from their axis, and how wide the letters of names are [inches]."""
 TURN_STEPS, MIN_STEP_WIDTH = (30, 60, 90), 0.36
 """Steps of the cam angle [degrees], and how wide one must be at least [inches]."""
 MAX_WIDTH = 12.0
@@ -97,7 +97,7 @@ def name_ordinates(axes: Axes, diagrams: Sequence[Axes], names: Sequence[str], s
     for diagram, name, symbol in zip(diagrams, names, symbols, strict=True):
         diagram.set_ylabel(symbol if low else name, rotation=0 if low else 90, va="center" if low else "bottom")
         # They stand one under the other, however wide the numbers are.
-        diagram.yaxis.set_label_coords(NAME_OFFSET / width, 0.5)
+        diagram.yaxis.set_label_coords((SYMBOL_OFFSET if low else NAME_OFFSET) / width, 0.5)
 
 
 def svg_of(shown: Plottable) -> str:

@@ -35,7 +35,7 @@ def plot(forces: CamForces, on: Axes | Figure | None = None, label: str = "", co
     for diagram, curve, own in curves.values():
         _draw(diagram, forces, curve, label, color or own)
     divide_turn(axes, (upper, lower), ANGLE_LABEL)
-    name_ordinates(axes, (upper, lower), [*curves], ("N, N", "T, N mm"))
+    name_ordinates(axes, (upper, lower), [*curves], ("N", "T"))
     upper.set_title(f"Forces at {forces.load.speed_rpm:g} rpm", fontsize="medium")
     return axes
 

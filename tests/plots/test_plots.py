@@ -278,7 +278,7 @@ def test_an_array_of_axes_is_told(solution):
 
 
 @pytest.mark.parametrize(
-    ("size", "names", "step"), [((7, 7), "name", 30), ((6, 2), "symbol", 30), ((3.5, 3), "symbol", 60)]
+    ("size", "names", "step"), [((7, 7), "name", 30), ((6, 2), "symbol", 30), ((4.2, 3), "symbol", 60)]
 )
 def test_on_low_axes_ordinates_have_symbols_and_the_turn_fewer_divisions(size, names, step):
     axes = Figure(figsize=size).add_subplot()
