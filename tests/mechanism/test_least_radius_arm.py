@@ -343,3 +343,38 @@ def test_limits_near_0_and_90_degrees(name, limit):
 def test_what_cannot_be_is_refused_with_reason(make, message):
     with pytest.raises(DesignError, match=message):
         make()
+
+
+@pytest.mark.parametrize(
+    ("lift", "angles", "laws", "arm", "permitted", "curvature"),
+    [
+        (17.195, (73.185, 42.733, 54.48), ("cycloidal", "3-4-5"), (66.49, 83.986, 3.787), (32.138, 43.537), 26.076),
+        (15.439, (75.066, 43.782, 59.577), ("3-4-5", "3-4-5"), (67.523, 83.043, 10.318), (33.473, 48.18), 26.214),
+        (18.425, (116.524, 85.572, 55.723), ("cosine", "cosine"), (75.659, 84.246, 14.148), (36.977, 42.116), 28.204),
+    ],
+)
+def test_a_radius_that_the_curvature_needs_is_refused_where_it_exceeds_a_permitted_angle(
+    lift, angles, laws, arm, permitted, curvature
+):
+    """Of an arm a larger cam may have larger pressure angles: what the curvature needs is found here by trial."""
+    rise, dwell, back = np.radians(angles)
+    phases = [Rise(np.radians(lift), rise, laws[0]), Dwell(dwell), Return(np.radians(lift), back, laws[1])]
+    motion = Motion([*phases, Dwell(2 * math.pi - rise - dwell - back)])
+    follower, limits = Oscillating(*arm), dict(zip(("rise", "return_"), np.radians(permitted), strict=True))
+
+    def sharpest(radius: float) -> float:
+        return Cam(motion, follower, radius).extremes().min_convex_radius[0]
+
+    # So curved is the pitch curve that its working profile has the radius of curvature asked for.
+    needed = curvature + follower.roller_radius
+    low = high = minimum_radius(motion, follower, **limits).prime_radius
+    assert sharpest(low) < needed
+    while sharpest(high) < needed:
+        low, high = high, 1.02 * high
+    while high - low > 1e-6:
+        low, high = ((low + high) / 2, high) if sharpest((low + high) / 2) < needed else (low, (low + high) / 2)
+    extremes = Cam(motion, follower, high).extremes()
+    worst = extremes.pressure_angle_rise[0] - limits["rise"], abs(extremes.pressure_angle_return[0]) - limits["return_"]
+    assert max(worst) > math.radians(0.05)
+    with pytest.raises(DesignError, match="lengthen the centre distance"):
+        minimum_radius(motion, follower, curvature=curvature, **limits)

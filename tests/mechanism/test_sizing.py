@@ -13,7 +13,7 @@ from over_all import over_all, over_seeds
 
 import graphcam as gc
 from graphcam.mechanism.sizing import feasible_region, pareto_front
-from graphcam.mechanism.sizing_limits import LIMITS
+from graphcam.mechanism.sizing_limits import CURVATURE_LIMIT, LIMITS, SHARE_LIMIT, Sizes, TurnPlaces, margins
 from graphcam.mechanism.sizing_search import WIDTH_SLACK
 
 DEG = math.pi / 180
@@ -477,3 +477,21 @@ def test_no_cam_of_a_million_is_smaller(name):
     between_places = 1e-2
     assert least >= found - between_places
     assert least <= found + 2 * step
+
+
+@pytest.mark.parametrize(
+    ("rule", "of_rho", "of_radius", "less"),
+    [("0.7 rho", 0.7, 0.0, 0.0), ("rho - 4", 1.0, 0.0, 4.0), ("0.3 r0", 0.0, 0.3, 0.0)],
+)
+def test_nothing_is_left_of_a_rule_where_the_roller_is_as_large_as_it_permits(rule, of_rho, of_radius, less):
+    """And half of it where the roller, with what the rule leaves on it, is half as large."""
+    motion, load, asked = CASES["angle and stress"]
+    limits = gc.size_cam(motion, load, **asked | {"roller_rule": rule}).problem.limits
+    cam = gc.Cam(motion, gc.Translating(), prime_radius=60.0)
+    rho, _ = cam.extremes().min_convex_radius
+    places = TurnPlaces.spread(motion, load, finer=8)
+    largest = of_rho * rho + of_radius * 60.0 - less
+    name = SHARE_LIMIT if of_radius else CURVATURE_LIMIT
+    for roller, left in ((largest, 0.0), ((largest + less) / 2 - less, 0.5)):
+        found = margins(limits, places, Sizes(60.0, 0.0, roller, 15.0), 1)[name]
+        assert float(found.min()) == pytest.approx(left, abs=1e-3)
