@@ -30,11 +30,18 @@ from graphcam.errors import DesignError, check_kind
 from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
 from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
-from graphcam.given.follower_on_cam import Complexes, Trace, trace, unfit_follower
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise, wrap
 from graphcam.given.motion_law import Law
-from graphcam.given.point_outline import PointOutline, TracedMotion, traced_motion
+from graphcam.given.point_outline import (
+    Complexes,
+    PointOutline,
+    Trace,
+    TracedMotion,
+    trace,
+    traced_motion,
+    unfit_follower,
+)
 from graphcam.words import say
 
 Values = tuple[Floats, Floats, Floats, Floats]

@@ -24,9 +24,8 @@ import numpy as np
 from graphcam.errors import DesignError, check_number
 from graphcam.given.follower import Limits, OscillatingFlat, Rotation, sense, swing_remedy
 from graphcam.given.laws import Floats
-from graphcam.given.load_curve import largest
 from graphcam.given.motion import Motion
-from graphcam.given.spring_load import FollowerLoad, PlacedArmLoad
+from graphcam.given.spring_load import FollowerLoad, PlacedArmLoad, largest
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
 from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
 from graphcam.mechanism.turn_extremes import highest_places, velocity_range

@@ -4,8 +4,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, station_names
 from graphcam.drafting.scale import unit
-from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import ArmLoad, SpringLoad
+from graphcam.given.spring_load import ArmLoad, LoadCurve, SpringLoad
 from graphcam.report.markdown import Block, Equation, Grid, formula, general, number, numbers, warning
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import IDLE_CAPTION, SpringDesign, with_unit

@@ -16,12 +16,10 @@ from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import unit
 from graphcam.given.follower import MM_PER_M
 from graphcam.given.laws import Floats
-from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import ArmLoad, SpringLoad
+from graphcam.given.spring_load import ArmLoad, LoadCurve, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
-from graphcam.mechanism.forces import CamForces, Forces, mean_torque
-from graphcam.mechanism.jamming import jamming_margin
+from graphcam.mechanism.forces import CamForces, Forces, jamming_margin, mean_torque
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text

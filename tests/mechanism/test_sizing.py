@@ -12,9 +12,8 @@ import pytest
 from over_all import over_all, over_seeds
 
 import graphcam as gc
-from graphcam.mechanism.sizing import feasible_region, pareto_front
+from graphcam.mechanism.sizing import WIDTH_SLACK, feasible_region, pareto_front
 from graphcam.mechanism.sizing_limits import LIMITS
-from graphcam.mechanism.sizing_search import WIDTH_SLACK
 
 DEG = math.pi / 180
 
