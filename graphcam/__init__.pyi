@@ -100,8 +100,7 @@ from .solving.solve import solve as solve
 from .studio import studio as studio
 from .sweeps.designs import Designs as Designs
 from .sweeps.grid import grid as grid
-from .sweeps.sweep import sweep as sweep
-from .sweeps.swept import Swept as Swept
+from .sweeps.sweep import Swept as Swept, sweep as sweep
 from .tasks.arcs_task import ArcsTask as ArcsTask
 from .tasks.task import Task as Task
 from .tasks.task_file import (

@@ -186,11 +186,7 @@ def make(
     / "exercise",
     secret_file: Annotated[
         Path | None,
-        Option(
-            parser=nonempty_path,
-            metavar="F",
-            help="An earlier course's secret; by default a new one is made.",
-        ),
+        Option(parser=nonempty_path, metavar="F", help="An earlier course's secret; by default a new one is made."),
     ] = None,
     language: Annotated[
         str, Option(metavar="|".join(languages()), help="Language of the handouts and of the feedback.")
@@ -256,16 +252,7 @@ def make(
         papers = {"language": language, "hand": hand, "paper": chosen}
         told = ids_from(roster)
         count = run(
-            name,
-            roster,
-            secret_file,
-            out,
-            **papers,
-            ink=ink,
-            workers=workers,
-            cluster=cluster,
-            step=step,
-            tell=remark,
+            name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step, tell=remark
         )
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)

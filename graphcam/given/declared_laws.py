@@ -15,8 +15,6 @@ among them; R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapte
 R. V. Muffley, *Plate Cam Design*, Product Engineering 26 (February 1955), the eighth-degree polynomial.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

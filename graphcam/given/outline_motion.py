@@ -14,8 +14,6 @@ On a straight part with the outward normal n, at the distance p from the cam cen
 w = l n and the right side c Re n - p.  Under a flat face y = Im C + R.  Each is differentiated three times.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Callable, Sequence
@@ -93,10 +91,7 @@ def outline_motion(
     outline: PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
 ) -> TracedMotion: ...
 def outline_motion(
-    outline: ArcOutline | PointOutline,
-    follower: Follower,
-    rotation: Rotation = "ccw",
-    tolerance: float | None = None,
+    outline: ArcOutline | PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
 ) -> OutlineMotion | TracedMotion:
     """What a given cam does to a follower: one of base circle, flank and nose, or one through points.
 

@@ -42,8 +42,6 @@ force cos alpha - mu sin alpha acts along the motion then; of an arm of the leng
 lengths of the arm, cos alpha - sigma mu (sin alpha - r/l), for its friction acts at the roller's rim.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -487,10 +485,7 @@ class CamForces(Plottable):
                 "so small that the follower does not jam in its guide, {where}", where=self._place_text(worst)
             )
             raise DesignError("friction", self.friction, allowed, say("lubricate guide and cam, or lengthen the guide"))
-        alpha, limit = (
-            self.cam.pressure_angle(worst.phi),
-            jamming_angle(self.guide, self.cam.motion(worst.phi)[0]),
-        )
+        alpha, limit = (self.cam.pressure_angle(worst.phi), jamming_angle(self.guide, self.cam.motion(worst.phi)[0]))
         found = say("{degrees:.4g} degrees at a cam angle of {degrees2:.4g}")
         found = found.with_values(degrees=math.degrees(alpha), degrees2=math.degrees(worst.phi))
         allowed = say("less than the {degrees:.4g} degrees at which the guide jams", degrees=math.degrees(limit))

@@ -8,8 +8,6 @@ hollows of a sound cam only widen.  From the radius that the pressure angles nee
 offset or centre distance, until rho of the sharpest place is the roller radius and the permitted one together.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

@@ -39,12 +39,7 @@ def _formula(load: SpringLoad | ArmLoad) -> str:
 def contact(solution: Solution) -> list[Block]:
     """The chapter on contact: the spring's preload, the minimum contact force, and where contact is lost."""
     spring = _spring(solution)
-    load, needed, least, lost = (
-        spring.load,
-        spring.least,
-        spring.contact.min_force(),
-        and_list(spring.lost),
-    )
+    load, needed, least, lost = (spring.load, spring.least, spring.contact.min_force(), and_list(spring.lost))
     along, preload, _ = spring.units
     keeps = say(
         "A preload of at least {preload} {unit} keeps contact over the whole turn; it is needed at φ = {phi}.",

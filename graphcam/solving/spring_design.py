@@ -162,11 +162,7 @@ class SpringDesign:
         least, (along, preload, _) = self.contact.min_force(), self.units
         mean, most, fewest = self.torques
         return {
-            "least_preload": {
-                "value": self.needed,
-                "unit": preload,
-                "phi_deg": math.degrees(self.least.phi),
-            },
+            "least_preload": {"value": self.needed, "unit": preload, "phi_deg": math.degrees(self.least.phi)},
             "preload": {"value": self.load.preload, "unit": preload},
             "least_contact_force": plain_place(least, along),
             "least_normal_force": plain_place(self.forces.min_normal(), "N"),
@@ -335,11 +331,7 @@ class SpringDesign:
         lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
-            (
-                say("minimum preload"),
-                with_unit(self.needed, preload),
-                say("at {phi}", phi=degrees(self.least.phi)),
-            ),
+            (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
             (contact, with_unit(_without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),

@@ -1,7 +1,5 @@
 """Every combination of sizes as designs, as a file of ``graphcam sweep`` gives them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

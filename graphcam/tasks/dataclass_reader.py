@@ -7,8 +7,6 @@ What a hint may be: ``float``, a type of :mod:`graphcam.tasks.units`, ``int``, `
 :class:`ByKind` or :class:`ByKeys` one of several dataclasses.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import types

@@ -5,8 +5,6 @@ the file, ``task.motion()`` is the :class:`~graphcam.given.motion.Motion` in rad
 it is given a meaning, once, whether it comes from a file or from Python.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Mapping
@@ -15,15 +13,7 @@ from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import (
-    FlatFaced,
-    Limits,
-    Oscillating,
-    OscillatingFlat,
-    Rotation,
-    Translating,
-    sense,
-)
+from graphcam.given.follower import FlatFaced, Limits, Oscillating, OscillatingFlat, Rotation, Translating, sense
 from graphcam.given.impact import NO_FORCE, velocity_jumps
 from graphcam.given.laid_outline import GivenCamMotion
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
@@ -467,12 +457,7 @@ class Task:
             return
         if self.speed_rpm is None:
             limit = say("given where there is a spring")
-            raise DesignError(
-                "speed_rpm",
-                say("missing"),
-                limit,
-                say("the force of inertia grows with the speed"),
-            )
+            raise DesignError("speed_rpm", say("missing"), limit, say("the force of inertia grows with the speed"))
         if velocity_jumps(self.motion()):
             raise DesignError("spring", say("given"), say("left out where the velocity jumps"), NO_FORCE)
         if self.follower.swings and not self.spring.swings:
