@@ -14,8 +14,8 @@ from typing import IO, Any
 
 from graphcam.words import Caption
 
-HELP_CALLS = {"Option", "Argument", "Typer"}
-"""The calls of typer that have a parameter ``help``."""
+HELP_CALLS = {"Option", "Argument", "Typer", "path_option", "path_argument"}
+"""The calls that have a parameter ``help`` of typer's."""
 
 
 def help_text(text: str) -> Caption:
