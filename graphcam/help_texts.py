@@ -4,8 +4,6 @@ Typer takes them as plain text: what an option, an argument or a group of comman
 paragraph of a command's docstring.  Each stands in the catalogs as a whole, and is told as one when the help is shown.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

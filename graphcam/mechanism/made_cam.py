@@ -200,28 +200,6 @@ class MadeCam:
         return Contour(point * seen, made * seen, turning / speed, speed, turning)
 
 
-def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, Floats, Floats]:
-    """How far (s, v, a) are off to the first order, of the same deviations at cam angles phi [rad].
-
-    >>> import graphcam as gc
-    >>> from math import pi
-    >>> motion = gc.Motion([gc.Rise(10, pi), gc.Return(10, pi)])
-    >>> cam = gc.Cam(motion, gc.Translating(roller_radius=8), prime_radius=30)
-    >>> wave = gc.Deviations((20,), np.array([0.01]), {})
-    >>> [off.round(4).tolist() for off in linear_off(cam, np.array([0.0]), wave)]
-    [[0.01], [0.0], [-4.0]]
-    """
-    lifted = lifts_by_error(cam.kinematics, cam.motion(phi))
-    delta, slope, bend = deviations.waviness(phi)
-    profile = lifted["profile"]
-    s = profile.value * delta
-    v = profile.slope * delta + profile.value * slope
-    a = profile.bend * delta + 2 * profile.slope * slope + profile.value * bend
-    for name, off in deviations.sizes.items():
-        s, v, a = s + off * lifted[name].value, v + off * lifted[name].slope, a + off * lifted[name].bend
-    return s, v, a
-
-
 def lifts_by_error(kin: Any, values: Values) -> dict[str, Jet]:
     """The lift of the follower by what is too large, with the first two derivatives by phi."""
     return kin.lift_per_error(_followed(values))

@@ -19,7 +19,8 @@ from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.sweeps.designs import CLOSURE_TOLERANCE, Designs
 from graphcam.sweeps.sweep import computed, usual_limit
 from graphcam.sweeps.sweep_quantities import QUANTITIES
-from graphcam.tasks.task_file import Classes, checked_table, other_file, read_content, read_toml
+from graphcam.tasks.dataclass_reader import classes_of
+from graphcam.tasks.task_file import checked_table, other_file, read_content, read_toml
 from graphcam.words import Words, say
 
 ANGLE_KEYS = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")
@@ -261,7 +262,6 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
 
 
 _REMEDY = say("graphcam/data/space.toml in the package is a commented example")
-_CLASSES: Classes = {(): Space, ("motion",): SpaceMotionTable, ("cam",): SpaceCamTable, ("limits",): SpaceLimitsTable}
 
 
 def load_space(path: str | Path) -> Space:
@@ -280,4 +280,4 @@ def load_space(path: str | Path) -> Space:
         if isinstance(motion := read.data.get("motion"), dict) and "phases" in motion:
             found, expected = say("a task"), say("a space of designs: 'graphcam init FILE --sweep' writes one")
             raise TaskError(str(path), say("the file"), found, expected, say("'graphcam solve' takes a task"))
-        return checked_table(Space, _CLASSES, str(path), read.data, read.data, read)
+        return checked_table(Space, classes_of(Space), str(path), read.data, read.data, read)
