@@ -98,8 +98,8 @@ from .solving.sizing_design import Sizing as Sizing, size_task as size_task
 from .solving.solution import Solution as Solution
 from .solving.solve import solve as solve
 from .studio import studio as studio
+from .sweeps.design_space import grid as grid
 from .sweeps.designs import Designs as Designs
-from .sweeps.grid import grid as grid
 from .sweeps.sweep import Swept as Swept, sweep as sweep
 from .tasks.arcs_task import ArcsTask as ArcsTask
 from .tasks.task import Task as Task

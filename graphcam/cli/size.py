@@ -90,7 +90,7 @@ def size(
 
 def _print(sizing: Sizing) -> None:
     """Print the best cam with its active limits, and the front."""
-    from graphcam.report.sizing_tables import BINDING_CAPTIONS, TITLES_BY_OBJECTIVE, cam_table, front_table
+    from graphcam.report.sizing_sheet import BINDING_CAPTIONS, TITLES_BY_OBJECTIVE, cam_table, front_table
 
     title = TITLES_BY_OBJECTIVE[sizing.objective]
     tables = [cam_table(sizing.best, sizing.adopted, title)]
