@@ -15,7 +15,6 @@ from .given.follower import (
     Translating as Translating,
 )
 from .given.laws import LAWS as LAWS, law as law
-from .given.load_curve import LoadCurve as LoadCurve
 from .given.making_errors import Deviations as Deviations, MakingErrors as MakingErrors
 from .given.measured import (
     IntegratedMotion as IntegratedMotion,
@@ -23,6 +22,7 @@ from .given.measured import (
     integrated_motion as integrated_motion,
     measured_motion as measured_motion,
 )
+from .given.monotone_spline import sampled_law as sampled_law
 from .given.motion import (
     DegreesWarning as DegreesWarning,
     Dwell as Dwell,
@@ -40,8 +40,13 @@ from .given.point_outline import (
 )
 from .given.polynomial_law import boundary_law as boundary_law, constant_velocity_law as constant_velocity_law
 from .given.roller_contact import RollerContact as RollerContact
-from .given.spline_law import sampled_law as sampled_law
-from .given.spring_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring, Guide as Guide, SpringLoad as SpringLoad
+from .given.spring_load import (
+    ArmLoad as ArmLoad,
+    ArmSpring as ArmSpring,
+    Guide as Guide,
+    LoadCurve as LoadCurve,
+    SpringLoad as SpringLoad,
+)
 from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller
 from .mechanism.conjugate_cam import ConjugateCam as ConjugateCam
@@ -56,19 +61,18 @@ from .mechanism.follower_train import (
     TrainMotion as TrainMotion,
     VibratingFollower as VibratingFollower,
 )
-from .mechanism.forces import CamForces as CamForces, mean_torque as mean_torque
+from .mechanism.forces import CamForces as CamForces, jamming_margin as jamming_margin, mean_torque as mean_torque
 from .mechanism.hertz import (
     ContactStress as ContactStress,
     LineContact as LineContact,
     hertz_line_contact as hertz_line_contact,
 )
-from .mechanism.jamming import jamming_margin as jamming_margin
 from .mechanism.least_radius import (
     FlatMinimumRadius as FlatMinimumRadius,
     MinimumRadius as MinimumRadius,
     minimum_radius as minimum_radius,
 )
-from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
+from .mechanism.least_radius_lines import ArmMinimumRadius as ArmMinimumRadius
 from .mechanism.made_cam import MadeCam as MadeCam
 from .mechanism.motion_bands import MotionBands as MotionBands, motion_bands as motion_bands
 from .mechanism.oscillating_flat import FaceReach as FaceReach, face_reach as face_reach
@@ -94,10 +98,9 @@ from .solving.sizing_design import Sizing as Sizing, size_task as size_task
 from .solving.solution import Solution as Solution
 from .solving.solve import solve as solve
 from .studio import studio as studio
+from .sweeps.design_space import grid as grid
 from .sweeps.designs import Designs as Designs
-from .sweeps.grid import grid as grid
-from .sweeps.sweep import sweep as sweep
-from .sweeps.swept import Swept as Swept
+from .sweeps.sweep import Swept as Swept, sweep as sweep
 from .tasks.arcs_task import ArcsTask as ArcsTask
 from .tasks.task import Task as Task
 from .tasks.task_file import (

@@ -1,7 +1,5 @@
 """The text of a file that somebody gives; of another kind of file it is told what it is and what to do."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from graphcam.errors import TaskError

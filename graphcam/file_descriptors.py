@@ -1,7 +1,5 @@
 """Flags for opening files of unknown origin without waiting: a pipe, for instance, may never end."""
 
-from __future__ import annotations
-
 import os
 
 BINARY_FLAGS, INHERITANCE_FLAGS, NONBLOCKING_FLAGS = (

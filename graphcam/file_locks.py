@@ -1,7 +1,5 @@
 """Locks that the system releases when the process that holds them ends, however it ends: on Unix, or on Windows."""
 
-from __future__ import annotations
-
 import importlib
 import os
 from collections.abc import Generator

@@ -5,8 +5,6 @@ system gives free when the run ends, however it ends: so the next run tells a dr
 that is still being written.
 """
 
-from __future__ import annotations
-
 import errno
 import hashlib
 import os

@@ -1,7 +1,5 @@
 """Names that have been replaced: who uses a former one is told the present one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any, TypeVar, cast

@@ -4,8 +4,6 @@ Typer takes them as plain text: what an option, an argument or a group of comman
 paragraph of a command's docstring.  Each stands in the catalogs as a whole, and is told as one when the help is shown.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator
@@ -14,8 +12,8 @@ from typing import IO, Any
 
 from graphcam.words import Caption
 
-HELP_CALLS = {"Option", "Argument", "Typer"}
-"""The calls of typer that have a parameter ``help``."""
+HELP_CALLS = {"Option", "Argument", "Typer", "path_option", "path_argument"}
+"""The calls that have a parameter ``help`` of typer's."""
 
 
 def help_text(text: str) -> Caption:

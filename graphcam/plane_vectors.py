@@ -1,7 +1,5 @@
 """Products of plane vectors, which are complex numbers; used by both the drawn and the exact side."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

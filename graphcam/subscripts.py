@@ -3,8 +3,6 @@
 So a text can be read wherever it is printed; sheets and pages set the letters lower.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from unicodedata import normalize

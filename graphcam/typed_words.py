@@ -3,8 +3,6 @@
 The table is ``data/typed_words.toml``.  Capitals, hyphens, underscores and spaces do not count.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 import unicodedata

@@ -1,7 +1,5 @@
 """Jobs shared among processes or machines, in order, or so that a job that kills its worker costs only itself."""
 
-from __future__ import annotations
-
 import _thread
 import multiprocessing
 import os

@@ -194,7 +194,7 @@ def test_every_list_of_followers_has_every_follower():
 
 HOMES = {"given/follower.py", "tasks/task.py", "tasks/arcs_task.py"}
 """Where the kinds are declared: the followers, and the tables that a file has for them."""
-DEFAULTS = {"sweeps/designs.py", "sweeps/design_space.py", "sweeps/grid.py"}
+DEFAULTS = {"sweeps/designs.py", "sweeps/design_space.py"}
 """Where one is what is meant if nothing is said."""
 TEXTS = {"studio/sizes_form.py"}
 """Where a name that users see is the same word."""

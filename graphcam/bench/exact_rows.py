@@ -36,10 +36,7 @@ LOOPED_DESIGNS = 8
 """Designs of the loop, in which every cam takes as long as the other."""
 SWEEP_RUNS = 12
 """Runs of a sweep, the best of which counts: beside other work most of them lose the cache."""
-SWEPT_CASES = (
-    *(("translating", law) for law in ("3-4-5", "cycloidal", "modified-trapezoidal")),
-    ("arm", "3-4-5"),
-)
+SWEPT_CASES = (*(("translating", law) for law in ("3-4-5", "cycloidal", "modified-trapezoidal")), ("arm", "3-4-5"))
 """The swept cases, each a follower with a law."""
 RIVAL_STATIONS = 360
 RIVAL_RUNS = 40

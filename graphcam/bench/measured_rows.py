@@ -1,7 +1,5 @@
 """Random motions, measured with noise, against the motions they were sampled from and the best that noise permits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ A task that names no language is English, as is one that names English: there th
 gettext finds it, in the first of LANGUAGE, LC_ALL, LC_MESSAGES and LANG that is set.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Mapping

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from typer import Argument, Option
+from typer import Option
 
 from graphcam.cli.command_language import voice
 from graphcam.cli.shared import (
@@ -16,8 +16,9 @@ from graphcam.cli.shared import (
     echo,
     errors_name,
     input_errors,
-    nonempty_path,
     nonempty_place,
+    path_argument,
+    path_option,
     print_table,
     progress_bar,
     progress_lines,
@@ -32,9 +33,8 @@ from graphcam.words import say
 
 def notebook(
     task: TaskFile = None,
-    out: Annotated[
-        Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the notebook and its task.")
-    ] = DEFAULT_FOLDER / "notebook",
+    out: Annotated[Path, path_option(metavar="DIR", help="Folder for the notebook and its task.")] = DEFAULT_FOLDER
+    / "notebook",
     run: Annotated[bool, Option("--execute", help="Execute it, so that it contains its figures.")] = False,
     html: Annotated[bool, Option("--html", help="Execute it and make a web page of it in one file.")] = False,
     pdf: Annotated[bool, Option("--pdf", help="Execute it and print it as PDF with the installed Chromium.")] = False,
@@ -43,8 +43,7 @@ def notebook(
     ] = None,
     course: Annotated[
         Path | None,
-        Option(
-            parser=nonempty_path,
+        path_option(
             metavar="DIR",
             help="Write the whole course for this task instead: the student's edition, and the teacher's with answers.",
         ),
@@ -89,9 +88,8 @@ def bench(
     hard: Annotated[
         bool, Option("--hard", help="Only show what is left of the digits in hard cases, computed and drawn.")
     ] = False,
-    out: Annotated[
-        Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the report and its figures.")
-    ] = DEFAULT_FOLDER / "bench",
+    out: Annotated[Path, path_option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_FOLDER
+    / "bench",
 ) -> None:
     """Report speed against error of drawn, sampled and exact methods and of the usual alternatives.
 
@@ -121,9 +119,7 @@ def bench(
 
 
 def sweep(
-    space: Annotated[
-        Path, Argument(parser=nonempty_path, metavar="SPACE.toml", help="File with the values of every size.")
-    ],
+    space: Annotated[Path, path_argument(metavar="SPACE.toml", help="File with the values of every size.")],
     out: Annotated[
         str,
         Option(
@@ -179,10 +175,7 @@ def sweep(
 
 def init(
     file: Annotated[
-        Path,
-        Argument(
-            parser=nonempty_path, metavar="FILE", help="Name of the task file to write; the file must not exist yet."
-        ),
+        Path, path_argument(metavar="FILE", help="Name of the task file to write; the file must not exist yet.")
     ],
     space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead, in English.")] = False,
     language: Annotated[

@@ -17,7 +17,8 @@ from graphcam.cli.shared import (
     echo,
     echo_line,
     input_errors,
-    nonempty_path,
+    path_argument,
+    path_option,
     print_table,
     progress_bar,
     progress_lines,
@@ -32,14 +33,16 @@ if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
 
 SecretFile = Annotated[
-    Path | None,
-    Option(
-        parser=nonempty_path, metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'."
-    ),
+    Path | None, path_option(metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'.")
 ]
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )
+EarlierSecret = Annotated[
+    Path | None, path_option(metavar="F", help="An earlier course's secret; by default a new one is made.")
+]
+CORE_COUNT = os.cpu_count() or 1
+Workers = Annotated[int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")]
 Cluster = Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes on this machine.")]
 Hand = Annotated[
     str, Option(metavar="NAME", help="Students whose drawing errors set the tolerances: careful, usual or first-year.")
@@ -72,7 +75,7 @@ def list_exercises() -> None:
 @exercise.command("copy")
 def copy_exercise(
     name: Annotated[str, Argument(metavar="NAME", help="Name of an exercise that 'graphcam exercise list' names.")],
-    file: Annotated[Path, Argument(parser=nonempty_path, metavar="FILE.toml", help="A new file.")],
+    file: Annotated[Path, path_argument(metavar="FILE.toml", help="A new file.")],
 ) -> None:
     """Write the file of an exercise, as a start for one of your own.
 
@@ -96,9 +99,7 @@ def simulate(
     variants: Annotated[int, Option(min=1, metavar="N", help="Number of variants.")] = 5,
     hands: Annotated[int, Option(min=1, metavar="N", help="Students per variant and mistake.")] = 400,
     as_json: Annotated[bool, Option("--json", help="Print only the figures, as JSON.")] = False,
-    out: Annotated[
-        Path | None, Option(parser=nonempty_path, metavar="FILE", help="Write the JSON into a new file.")
-    ] = None,
+    out: Annotated[Path | None, path_option(metavar="FILE", help="Write the JSON into a new file.")] = None,
     workers: Annotated[
         int, Option(min=1, metavar="N", help="Number of processes; the figures do not depend on it.")
     ] = 1,
@@ -175,29 +176,14 @@ def _print_matrix(found: Simulation) -> None:
 def make(
     name: Name,
     roster: Annotated[
-        Path,
-        Option(
-            parser=nonempty_path,
-            metavar="CSV",
-            help="The students: ids in the column 'id', or else in the first column.",
-        ),
+        Path, path_option(metavar="CSV", help="The students: ids in the column 'id', or else in the first column.")
     ],
-    out: Annotated[Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the handouts.")] = DEFAULT_FOLDER
-    / "exercise",
-    secret_file: Annotated[
-        Path | None,
-        Option(
-            parser=nonempty_path,
-            metavar="F",
-            help="An earlier course's secret; by default a new one is made.",
-        ),
-    ] = None,
+    out: Annotated[Path, path_option(metavar="DIR", help="Folder for the handouts.")] = DEFAULT_FOLDER / "exercise",
+    secret_file: EarlierSecret = None,
     language: Annotated[
         str, Option(metavar="|".join(languages()), help="Language of the handouts and of the feedback.")
     ] = "en",
-    workers: Annotated[
-        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
-    ] = os.cpu_count() or 1,
+    workers: Workers = CORE_COUNT,
     cluster: Cluster = "",
     hand: Hand = "",
     paper: Annotated[
@@ -256,16 +242,7 @@ def make(
         papers = {"language": language, "hand": hand, "paper": chosen}
         told = ids_from(roster)
         count = run(
-            name,
-            roster,
-            secret_file,
-            out,
-            **papers,
-            ink=ink,
-            workers=workers,
-            cluster=cluster,
-            step=step,
-            tell=remark,
+            name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step, tell=remark
         )
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)
@@ -284,33 +261,22 @@ def make(
 def read(
     photographs: Annotated[
         list[Path] | None,
-        Argument(
-            parser=nonempty_path, metavar="[PHOTO]...", help="JPEG, PNG, HEIC, TIFF, PDF scans, or folders of them."
-        ),
+        path_argument(metavar="[PHOTO]...", help="JPEG, PNG, HEIC, TIFF, PDF scans, or folders of them."),
     ] = None,
     *,
-    course: Annotated[
-        Path, Option(parser=nonempty_path, metavar="DIR", help="The course, as 'exercise make' wrote it.")
-    ],
+    course: Annotated[Path, path_option(metavar="DIR", help="The course, as 'exercise make' wrote it.")],
     secret_file: SecretFile = None,
     out: Annotated[
-        Path | None, Option(parser=nonempty_path, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
+        Path | None, path_option(metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
     ] = None,
     review: Annotated[
         Path | None,
-        Option(
-            parser=nonempty_path,
-            metavar="FILE.html",
-            help="Write the page on which you check and correct the readings.",
-        ),
+        path_option(metavar="FILE.html", help="Write the page on which you check and correct the readings."),
     ] = None,
     corrections: Annotated[
-        Path | None,
-        Option(parser=nonempty_path, metavar="FILE", help="File that this page exported; it is kept for later runs."),
+        Path | None, path_option(metavar="FILE", help="File that this page exported; it is kept for later runs.")
     ] = None,
-    workers: Annotated[
-        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
-    ] = os.cpu_count() or 1,
+    workers: Workers = CORE_COUNT,
 ) -> None:
     """Read photographs of a course's worksheets, with any file names; then grade DIR/photos.
 
@@ -336,29 +302,18 @@ def read(
 
 @exercise.command()
 def grade(
-    folder: Annotated[
-        Path,
-        Argument(parser=nonempty_path, metavar="DIR", help="Folder with a folder for each student, or a zip file."),
-    ],
+    folder: Annotated[Path, path_argument(metavar="DIR", help="Folder with a folder for each student, or a zip file.")],
     out: Annotated[
-        Path,
-        Option(
-            parser=nonempty_path,
-            metavar="CSV",
-            help="File for the grades; reports of the same name are written beside it.",
-        ),
+        Path, path_option(metavar="CSV", help="File for the grades; reports of the same name are written beside it.")
     ],
     secret_file: SecretFile = None,
     exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if 'exercise make' did not make DIR.")] = "",
     level: Annotated[Level, Option(help="Where the code of notebooks is run; at L0 no code is run.")] = Level.L0,
     seconds: Annotated[float, Option(min=0.1, help="Time limit in seconds for a notebook's code.")] = 10.0,
-    workers: Annotated[
-        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
-    ] = os.cpu_count() or 1,
+    workers: Workers = CORE_COUNT,
     cluster: Cluster = "",
     feedback: Annotated[
-        Path | None,
-        Option(parser=nonempty_path, metavar="DIR", help="Folder for the feedback pages, one for each student."),
+        Path | None, path_option(metavar="DIR", help="Folder for the feedback pages, one for each student.")
     ] = None,
     gradebook: Annotated[
         str, Option(metavar="URL", help="Also enter the scores into this database, such as sqlite:///gradebook.db.")
@@ -367,16 +322,10 @@ def grade(
         bool, Option("--i-trust-these-students", help="Allow level L1, where code can change your files.")
     ] = False,
     roster: Annotated[
-        Path | None,
-        Option(
-            parser=nonempty_path, metavar="CSV", help="The students, instead of the roster the course was made for."
-        ),
+        Path | None, path_option(metavar="CSV", help="The students, instead of the roster the course was made for.")
     ] = None,
     overrides: Annotated[
-        Path | None,
-        Option(
-            parser=nonempty_path, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."
-        ),
+        Path | None, path_option(metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder.")
     ] = None,
     follow_through: Annotated[
         float | None,
@@ -430,23 +379,17 @@ def grade(
 
 @exercise.command()
 def export(
-    name: Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")],
+    name: Name,
     target: Annotated[LearningSystem, Option("--format", help="The system for which to export.")],
     count: Annotated[int, Option(min=1, max=1000, metavar="N", help="Number of variants.")] = 1,
     roster: Annotated[
-        Path | None,
-        Option(parser=nonempty_path, metavar="CSV", help="The students: one variant for each, instead of --count."),
+        Path | None, path_option(metavar="CSV", help="The students: one variant for each, instead of --count.")
     ] = None,
-    secret_file: Annotated[
-        Path | None,
-        Option(parser=nonempty_path, metavar="F", help="An earlier course's secret; by default a new one is made."),
-    ] = None,
+    secret_file: EarlierSecret = None,
     language: Annotated[
         str, Option(metavar="|".join(languages()), help="Language of everything that students read.")
     ] = "en",
-    out: Annotated[
-        Path, Option(parser=nonempty_path, metavar="DIR", help="A new folder for the export.")
-    ] = DEFAULT_FOLDER / "export",
+    out: Annotated[Path, path_option(metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER / "export",
     hand: Hand = "",
 ) -> None:
     """Export variants of an exercise for Moodle, Canvas, PrairieLearn, nbgrader, Gradescope or QTI 2.1.

@@ -1,7 +1,5 @@
 """What ``graphcam`` without a command shows: what to do next."""
 
-from __future__ import annotations
-
 import graphcam
 from graphcam.cli.shared import echo
 from graphcam.words import say

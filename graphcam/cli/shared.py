@@ -12,6 +12,7 @@ import time
 import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -49,6 +50,10 @@ def nonempty_path(path: str | Path) -> Path:
     return Path(nonempty_place(str(path)))
 
 
+path_option, path_argument = (partial(kind, parser=nonempty_path) for kind in (typer.Option, typer.Argument))
+"""An option and an argument that is a path, as typer has them."""
+
+
 def quoted(path: Path) -> str:
     """A path as it is typed on a command line of this system.
 
@@ -70,10 +75,7 @@ def echo_line(words: Words) -> None:
 
 
 TaskFile = Annotated[
-    Path | None,
-    typer.Argument(
-        parser=nonempty_path, metavar="TASK.toml", help="Task file; the default is the built-in coursework task."
-    ),
+    Path | None, path_argument(metavar="TASK.toml", help="Task file; the default is the built-in coursework task.")
 ]
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from typer import Argument, Option
+from typer import Option
 
 import graphcam
 from graphcam.cli.command_language import help_text_of, translated, voice
@@ -17,7 +17,8 @@ from graphcam.cli.shared import (
     echo,
     errors_name,
     input_errors,
-    nonempty_path,
+    path_argument,
+    path_option,
     print_table,
     progress_lines,
     read_task,
@@ -48,11 +49,9 @@ class Objective(StrEnum):
 def size(
     task: Annotated[
         Path | None,
-        Argument(
-            parser=nonempty_path, metavar="TASK.toml", help="Task file with a table \\[sizing]; by default an example."
-        ),
+        path_argument(metavar="TASK.toml", help="Task file with a table \\[sizing]; by default an example."),
     ] = None,
-    out: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = None,
+    out: Annotated[Path | None, path_option(metavar="DIR", help=OUT_HELP)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
     objective: Annotated[Objective | None, Option(help=BEST_HELP)] = None,
     language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
@@ -91,7 +90,7 @@ def size(
 
 def _print(sizing: Sizing) -> None:
     """Print the best cam with its active limits, and the front."""
-    from graphcam.report.sizing_tables import BINDING_CAPTIONS, TITLES_BY_OBJECTIVE, cam_table, front_table
+    from graphcam.report.sizing_sheet import BINDING_CAPTIONS, TITLES_BY_OBJECTIVE, cam_table, front_table
 
     title = TITLES_BY_OBJECTIVE[sizing.objective]
     tables = [cam_table(sizing.best, sizing.adopted, title)]

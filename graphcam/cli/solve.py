@@ -22,7 +22,7 @@ from graphcam.cli.shared import (
     errors_name,
     file_kind,
     input_errors,
-    nonempty_path,
+    path_option,
     print_files,
     print_table,
     progress_lines,
@@ -120,7 +120,7 @@ def _garbage_collector_off() -> Generator[None]:
 @_garbage_collector_off()
 def solve(
     task: TaskFile = None,
-    out: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = None,
+    out: Annotated[Path | None, path_option(metavar="DIR", help=OUT_HELP)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
     pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=PENCIL_HELP, min=0, max=MAX_PENCIL)] = None,
     divisions: Annotated[

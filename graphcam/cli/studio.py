@@ -12,7 +12,7 @@ import typer
 from typer import Option
 
 from graphcam.cli.command_language import help_text_of, voice
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, input_errors, nonempty_path, read_task, short_warnings
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, input_errors, path_option, read_task, short_warnings
 from graphcam.errors import DesignError
 from graphcam.language import languages
 from graphcam.words import say
@@ -35,12 +35,12 @@ ENDING_NOTE = say("It ends with its last tab, or with Ctrl-C.")
 
 def studio(
     task: TaskFile = None,
-    out: Annotated[Path, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = DEFAULT_FOLDER,
+    out: Annotated[Path, path_option(metavar="DIR", help=OUT_HELP)] = DEFAULT_FOLDER,
     language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
     browser: Annotated[bool, Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
-    html: Annotated[Path | None, Option(parser=nonempty_path, metavar="FILE", help=HTML_HELP)] = None,
-    site: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=SITE_HELP)] = None,
-    pyodide: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=PYODIDE_HELP)] = None,
+    html: Annotated[Path | None, path_option(metavar="FILE", help=HTML_HELP)] = None,
+    site: Annotated[Path | None, path_option(metavar="DIR", help=SITE_HELP)] = None,
+    pyodide: Annotated[Path | None, path_option(metavar="DIR", help=PYODIDE_HELP)] = None,
 ) -> None:
     """Open the studio: change a size, and see the construction and the exact values follow.
 

@@ -1,7 +1,5 @@
 """Wrong options and arguments, told as wrong fields of a file are: name, value, what is allowed, remedy."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Generator
 from contextlib import contextmanager, suppress

@@ -4,29 +4,76 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from functools import cached_property, partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from graphcam.comparison.bounds import DEGREES_PER_RADIAN, Bounds, HonestRange, honest_range
 from graphcam.comparison.double_integration import proved_bounds
-from graphcam.comparison.phase_speeds import PhaseAtSpeed, at_speed
+from graphcam.constructions.arc_chain import ArcChain
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.meaning import ComparedReading
 from graphcam.drafting.slips import PROTRACTOR_RADIUS
 from graphcam.errors import DesignError
+from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
+from graphcam.given.motion import Motion, MovingPhase
+from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.followers import LeastRadius
+from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.least_radius import minimum_radius
+from graphcam.mechanism.three_arc_cam import ThreeArcCam
 from graphcam.mechanism.turn_extremes import max_acceleration, max_jerk, max_velocity
 from graphcam.showing import parts_text
 from graphcam.words import Caption, say, sequence
 
 PRINTED_ERROR = 5e-4
 """mm of paper: errors and bounds that differ by less are one in print."""
+
+
+@dataclass(frozen=True)
+class PhaseAtSpeed:
+    """One phase: its time [s], and its greatest velocity and acceleration, 0 in a dwell [m/s, m/s^2; an arm: rad/s]."""
+
+    time: float
+    max_velocity: float
+    max_acceleration: float
+
+    @property
+    def greatest(self) -> tuple[float, float]:
+        """The greatest velocity and acceleration."""
+        return self.max_velocity, self.max_acceleration
+
+
+def at_speed(motion: Motion, speed_rpm: float, unit: str = "mm") -> list[PhaseAtSpeed]:
+    """The phases of a motion at a speed of the cam [rpm]: t = F/omega, v = C_v h omega/F, a = C_a h (omega/F)^2.
+
+    unit : of the lift, "mm" or "rad"
+
+    Source: a solved textbook problem, roller follower, harmonic, lift 50, 120/30/60 degrees, 100 rpm: 0.39 and 0.785
+    m/s, 6.17 and 24.67 m/s^2.
+
+    >>> from math import radians
+    >>> import graphcam as gc
+    >>> rise, back = gc.Rise(50, radians(120), "cosine"), gc.Return(50, radians(60), "cosine")
+    >>> motion = gc.Motion([rise, gc.Dwell(radians(30)), back, gc.Dwell(radians(150))])
+    >>> [round(phase.max_acceleration, 2) for phase in at_speed(motion, 100)]
+    [6.17, 0.0, 24.67, 0.0]
+    """
+    per_speed = UNITS_PER_SPEED[unit]
+    omega = omega_of(speed_rpm)
+    phases: list[PhaseAtSpeed] = []
+    for phase in motion.phases:
+        velocity = acceleration = 0.0
+        if isinstance(phase, MovingPhase):
+            velocity = phase.normalised.peak_velocity * phase.lift * omega / phase.angle / per_speed
+            acceleration = phase.normalised.peak_acceleration * phase.lift * (omega / phase.angle) ** 2 / per_speed
+        phases.append(PhaseAtSpeed(phase.angle / omega, velocity, acceleration))
+    return phases
 
 
 @dataclass(frozen=True)
@@ -263,3 +310,68 @@ COMMON_QUANTITIES: Mapping[str, str] = {
     **dict.fromkeys(("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg"), "deg"),
 }
 """The quantities that every solution names, though its follower may not have them, and their units."""
+
+
+# --- a cam of three arcs ---------------------------------------------------------------------------------------------
+
+POINT_NAMES = ("C1", "C2", "C3", "F")
+JOINT_READINGS = ("a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D")
+"""The accelerations at the two ends of every arc, in order."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArcsComparison:
+    """A drawn cam of arcs, the exact one, and what the roller does on it."""
+
+    drawn: ArcChain
+    cam: ThreeArcCam
+    motion: ArcMotion
+    __repr__ = parts_text
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """How far the drawn values may be off."""
+        return Bounds(self.drawn)
+
+    @cached_property
+    def quantities(self) -> dict[str, Quantity]:
+        """The quantities by name; of a sampled pencil the first drawing is compared."""
+        return quantities_of(self.drawn, self.bounds, self.exact)
+
+    @cached_property
+    def exact(self) -> Mapping[str, float]:
+        """The exact counterparts by name, in the order in which they are told."""
+        cam, motion = self.cam, self.motion
+        steepest, radii = math.degrees(motion.max_pressure_angle()[0]), (cam.rho1, cam.rho2, cam.rho3)
+        joints = zip(JOINT_READINGS, product(range(3), (0.0, 1.0)), strict=True)
+        return {
+            "max_v": motion.max_velocity()[0],
+            "max_a": motion.max_acceleration()[0],
+            # The least radius is not asked for: these are here because every solution has them.
+            **dict.fromkeys(("minimum_prime_radius", "minimum_offset"), math.nan),
+            "max_pressure_angle_rise_deg": steepest,
+            "max_pressure_angle_return_deg": -steepest,
+            "min_pitch_curvature_radius": min(motion.prime_radius, *(rho + motion.roller_radius for rho in radii)),
+            **{name: getattr(motion, name) for name in ("roller_radius", "lift", "prime_radius")},
+            **{f"{name}_{axis}": float(getattr(cam, name)[k]) for name in POINT_NAMES for k, axis in enumerate("xy")},
+            **{name: getattr(cam, name) for name in ("rho2", "rho3")},
+            **{f"phi_{name}_deg": math.degrees(motion.edges[k]) for k, name in enumerate("GFD", 1)},
+            **{name: float(motion.at(np.array(arc), np.array(u))[1][2]) for name, (arc, u) in joints},
+        }
+
+    @cached_property
+    def exact_stations(self) -> tuple[Floats, Values, Floats, Floats]:
+        """Exact at the stations: cam angle [rad], (s, v, a, j), pressure angle [rad], pitch curve (m, 2)."""
+        stations, motion = self.drawn.stations, self.motion
+        phi, values = motion.at(stations.arc, stations.u)
+        alpha: Floats = np.arctan2(values[1], motion.prime_radius + values[0])
+        return phi, values, alpha, motion.pitch_curve(phi)
+
+    @cached_property
+    def drawn_stations(self) -> Mapping[str, Floats]:
+        """What was read at the stations: s, v, a, pressure angle [rad], pitch x and y."""
+        return {name: self.drawn["arc_roller"].value(name) for name in ("s", "v", "a", "alpha", "x", "y")}
+
+
+UNITS_PER_SPEED = {"mm": MM_PER_M, "rad": 1.0}
+"""How many units of the lift make the one in which speeds are told: a metre, or for an arm a radian."""

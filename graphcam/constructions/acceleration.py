@@ -45,8 +45,8 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, introduced_parts
 from graphcam.given.laws import Floats, Side
+from graphcam.given.monotone_spline import MEASURED_LAW
 from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
-from graphcam.given.spline_law import MEASURED_LAW
 from graphcam.given.stations import Stations
 from graphcam.words import Caption, and_list, sequence
 

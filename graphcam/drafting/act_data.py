@@ -4,8 +4,6 @@ Written down is what an act takes: which act's places, lines or circles, at whic
 direction.  What it leaves, and lengths that are taken up with dividers, are not: they are found by drawing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any

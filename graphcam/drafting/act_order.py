@@ -5,8 +5,6 @@ back through what its acts took, as far as that does not lie there yet.  So no m
 steps, and what is taken from elsewhere on the board can be shown beside.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Any

@@ -19,25 +19,17 @@ Reach = Callable[[Points], tuple[Distances, Distances]]
 """Of places how far each lies beside a line or a circle, with a sign, and how far out on it, NaN where it ends."""
 
 
-def farthest_point(points: Points, direction: Points | complex) -> Points:
+def farthest_on_pieces(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
     """The point of a faired curve that lies farthest in a direction: there the tangent is perpendicular to it.
 
-    points : (..., n) plotted points of one smooth piece, in order; direction : one for all, or (...) one for each
+    points : (..., n) plotted points, in order, of several smooth pieces, each faired for itself
+    direction : one for all, or (...) one for each
     returns : (...) on the parabola through the three points about the farthest one, or that point itself where the
     parabola has no top between them, so that nothing is read beyond a corner or an end
 
     >>> x = np.array([-1.0, 0.5, 2.0])
-    >>> complex(farthest_point(x + 1j * (3 - x**2), 1j))
+    >>> complex(farthest_on_pieces(x + 1j * (3 - x**2), [slice(0, 3)], 1j))
     3j
-    """
-    points = np.asarray(points)
-    return farthest_on_pieces(points, [slice(0, points.shape[-1])], direction)
-
-
-def farthest_on_pieces(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
-    """The farthest point in a direction over several smooth pieces, each faired for itself.
-
-    points : (..., n); returns : (...)
 
     >>> x = np.arange(5.0)
     >>> corner = x + 1j * np.minimum(x, 4 - x)

@@ -4,8 +4,6 @@ Written for itself because they must run where there is NumPy alone.  Source: C.
 (rev. ed., 2001), chapters X and XIV.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray

@@ -4,8 +4,6 @@ The motion is cut where it turns, so that it becomes one of rises, dwells and re
 pieces of its polynomials.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_joints import SAME_VALUE, dwell_after, greatest_lift, joined_parts
-from graphcam.given.boundary_parts import Part, SplinePart, quoted_angle
+from graphcam.given.boundary_parts import (
+    SAME_VALUE,
+    Part,
+    SplinePart,
+    dwell_after,
+    greatest_lift,
+    joined_parts,
+    quoted_angle,
+)
 from graphcam.given.measured import from_zero
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.piecewise import Floats, Side

@@ -9,8 +9,6 @@ A polynomial is the list of its coefficients, the lowest first.  Source: C. de B
 (rev. ed., 2001), chapters IX, X and XIII.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from fractions import Fraction

@@ -101,11 +101,7 @@ class SmoothPieces:
         return _Cells(np.arange(self.low.size), self.low[:, None], self.high[:, None]).at(NODES)
 
     def stationary(
-        self,
-        quantity: Quantity,
-        group: Indices | None = None,
-        top: Floats | None = None,
-        height: Height = np.positive,
+        self, quantity: Quantity, group: Indices | None = None, top: Floats | None = None, height: Height = np.positive
     ) -> tuple[Indices, Floats]:
         """Pieces and places, inside, where a quantity is stationary, in no order; some that are not may be among them.
 

@@ -8,20 +8,15 @@ Two of them are for a rise and a fall without a dwell between: the acceleration 
 begins with the same.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Literal, cast
 
 from graphcam.errors import DesignError, nearest_word_remedy
-from graphcam.given.declared_law import DeclaredLaw
+from graphcam.given.declared_laws import TEXTBOOK_LAWS, DeclaredLaw
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats, Side
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
-from graphcam.given.polynomial_laws import EIGHTH_DEGREE, POLYNOMIAL_2_3, POLYNOMIAL_3_4_5, POLYNOMIAL_4_5_6_7
-from graphcam.given.sine_laws import COSINE, CYCLOIDAL, DOUBLE_HARMONIC, MODIFIED_SINE, MODIFIED_TRAPEZOIDAL
-from graphcam.given.straight_line_laws import RECTANGULAR, TRAPEZOIDAL, TRIANGULAR
 from graphcam.typed_words import names_of, plain
 from graphcam.words import say
 
@@ -46,14 +41,7 @@ LawName = Literal[
 
 MAX_PART_RATIO = 1e12
 """Greatest ratio of a law's parts: of more, the shorter is lost beside the longer."""
-DECLARED_LAWS: Mapping[str, DeclaredLaw] = {
-    law.name: law
-    for law in (
-        *(RECTANGULAR, TRIANGULAR, COSINE, CYCLOIDAL, TRAPEZOIDAL, MODIFIED_TRAPEZOIDAL, MODIFIED_SINE),
-        *(POLYNOMIAL_2_3, POLYNOMIAL_3_4_5, POLYNOMIAL_4_5_6_7),
-        *(DOUBLE_HARMONIC, EIGHTH_DEGREE),
-    )
-}
+DECLARED_LAWS: Mapping[str, DeclaredLaw] = {law.name: law for law in (*TEXTBOOK_LAWS,)}
 """The laws by their names."""
 LAWS = cast(tuple[LawName, ...], (*DECLARED_LAWS,))
 DWELL_TO_DWELL_LAWS = tuple(name for name in LAWS if not DECLARED_LAWS[name].rise_fall)

@@ -4,8 +4,6 @@ DIN 6885-1 form A and GOST 23360-78 give a keyway the same width and depths (ISO
 there is one table.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left
 from dataclasses import dataclass

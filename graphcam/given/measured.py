@@ -4,8 +4,6 @@ A spline is fitted to the table and cut where it rests and where it turns, so th
 and returns as any other, whose laws are the pieces of the spline.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -16,13 +14,12 @@ from graphcam.errors import DesignError, check_number
 from graphcam.former_names import renamed
 from graphcam.given.laws import Floats
 from graphcam.given.leg_detection import MIN_LEG_LIFT, Leg, find_legs
-from graphcam.given.monotone_spline import fit
+from graphcam.given.monotone_spline import MEASURED_LAW, fit
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.piecewise_polynomial import PiecewisePolynomial
 from graphcam.given.polynomial_law import leg_law
 from graphcam.given.reproducible_sums import ordered_sum
 from graphcam.given.root_finding import roots
-from graphcam.given.spline_law import MEASURED_LAW
 from graphcam.words import Caption, Words, say
 
 DEFAULT_TOLERANCE = 0.01

@@ -1,7 +1,5 @@
 """The follower's motion over one revolution: phases one after another, and the values at any cam angle."""
 
-from __future__ import annotations
-
 import inspect
 import math
 import warnings

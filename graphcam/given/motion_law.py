@@ -109,12 +109,7 @@ class Law:
             else Piece(formula, u, 1.0, -1.0, 1.0, (-1, 1, -1, 1))
             for formula, u in zip(formulas, starts, strict=True)
         )
-        made = {
-            "formulas": formulas,
-            "edges": starts[1:],
-            "middle": middle,
-            "pieces": tuple(pieces),
-        }
+        made = {"formulas": formulas, "edges": starts[1:], "middle": middle, "pieces": tuple(pieces)}
         for name, value in made.items():
             object.__setattr__(self, name, value)
         if not trusted:

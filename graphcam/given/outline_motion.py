@@ -14,8 +14,6 @@ On a straight part with the outward normal n, at the distance p from the cam cen
 w = l n and the right side c Re n - p.  Under a flat face y = Im C + R.  Each is differentiated three times.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Callable, Sequence
@@ -30,11 +28,18 @@ from graphcam.errors import DesignError, check_kind
 from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
 from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
-from graphcam.given.follower_on_cam import Complexes, Trace, trace, unfit_follower
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise, wrap
 from graphcam.given.motion_law import Law
-from graphcam.given.point_outline import PointOutline, TracedMotion, traced_motion
+from graphcam.given.point_outline import (
+    Complexes,
+    PointOutline,
+    Trace,
+    TracedMotion,
+    trace,
+    traced_motion,
+    unfit_follower,
+)
 from graphcam.words import say
 
 Values = tuple[Floats, Floats, Floats, Floats]
@@ -86,10 +91,7 @@ def outline_motion(
     outline: PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
 ) -> TracedMotion: ...
 def outline_motion(
-    outline: ArcOutline | PointOutline,
-    follower: Follower,
-    rotation: Rotation = "ccw",
-    tolerance: float | None = None,
+    outline: ArcOutline | PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
 ) -> OutlineMotion | TracedMotion:
     """What a given cam does to a follower: one of base circle, flank and nose, or one through points.
 

@@ -1,7 +1,5 @@
 """Laws of polynomials piece by piece: of a leg of a motion by conditions, of conditions alone, of constant velocity."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
@@ -9,8 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.boundary_joints import joined_parts
-from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart
+from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart, joined_parts
 from graphcam.given.motion_law import JUMP_BLEND, Law
 from graphcam.given.piecewise_polynomial import PiecewisePolynomial
 from graphcam.words import say

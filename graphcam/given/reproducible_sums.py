@@ -6,8 +6,6 @@ that every library of mathematics makes in its own way.  The fit of a measured m
 in the last digit, uses neither.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from graphcam.given.piecewise import Floats

@@ -30,8 +30,7 @@ NAMED_RULES = {
         say("Chinese courses on the theory of machines: the profile keeps a radius of curvature of 3 to 5 mm at least"),
     ),
     "norton": NamedRule(
-        "0.33 rho",
-        say("R. L. Norton, Design of Machinery, chapter 8: ρ is at least 2 to 3 times the roller radius"),
+        "0.33 rho", say("R. L. Norton, Design of Machinery, chapter 8: ρ is at least 2 to 3 times the roller radius")
     ),
 }
 """Rules by name.  Where a school gives a range, the end of it is taken that gives the smaller roller."""

@@ -6,8 +6,12 @@ from typing import Literal, NamedTuple
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, OscillatingFlat, Translating
 from graphcam.mechanism.flat_faced import FlatFacedKinematics, FlatMinimumRadius, flat_minimum_radius
 from graphcam.mechanism.kinematics import Kinematics
-from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, arm_minimum_radius
-from graphcam.mechanism.least_radius_translating import MinimumRadius, translating_minimum_radius
+from graphcam.mechanism.least_radius_lines import (
+    ArmMinimumRadius,
+    MinimumRadius,
+    arm_minimum_radius,
+    translating_minimum_radius,
+)
 from graphcam.mechanism.oscillating import OscillatingKinematics
 from graphcam.mechanism.oscillating_flat import OscillatingFlatKinematics, oscillating_flat_minimum_radius
 from graphcam.mechanism.translating import TranslatingKinematics

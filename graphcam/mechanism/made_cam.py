@@ -9,24 +9,111 @@ so its normal leans by gamma, tan(gamma) = delta'/M, and the normal turns by L k
 runs on the parallel curve at its radius.  At the cam angle phi the follower touches where that curve, turned by
 sigma phi, meets its path; so s follows from a root theta, and v and a follow from normal and curvature there.  Nothing
 is neglected, and no derivative is a difference.
+
+Quantities that carry their first two derivatives by phi along, by the rules of Leibniz.
+
+A function of numpy's four operations, square roots and tangents takes such quantities as it takes arrays.
+
+Source: A. Griewank, A. Walther, *Evaluating Derivatives* (2008), chapter 13.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from typing import Any, cast
 
 import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind, nearest_word_remedy
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import Deviations
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.jets import Jet
 from graphcam.mechanism.kinematics import Contour, Values
 from graphcam.words import say
+
+# --- quantities with two derivatives ---------------------------------------------------------------------------------
+
+Constant = Floats | float
+
+
+@dataclass(eq=False, repr=False)
+class Jet(NDArrayOperatorsMixin):
+    """A quantity with its first two derivatives, arrays of one shape.
+
+    >>> x = Jet(np.array([2.0]), np.array([1.0]), np.array([0.0]))
+    >>> square = x * x
+    >>> square.value.item(), square.slope.item(), square.bend.item()
+    (4.0, 4.0, 2.0)
+    """
+
+    value: Floats
+    slope: Floats
+    bend: Floats
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any) -> Any:
+        rule = _UFUNC_RULES.get(ufunc)
+        return NotImplemented if rule is None or method != "__call__" else rule(*inputs)
+
+
+def _jet(f: Jet | Constant) -> Jet:
+    return f if isinstance(f, Jet) else Jet(np.asarray(f), _ZERO, _ZERO)
+
+
+_ZERO = np.zeros(())
+
+
+def _negative(f: Jet) -> Jet:
+    return Jet(-f.value, -f.slope, -f.bend)
+
+
+def _add(f: Jet | Constant, g: Jet | Constant) -> Jet:
+    f, g = _jet(f), _jet(g)
+    return Jet(f.value + g.value, f.slope + g.slope, f.bend + g.bend)
+
+
+def _subtract(f: Jet | Constant, g: Jet | Constant) -> Jet:
+    return _add(f, -g)
+
+
+def _multiply(f: Jet | Constant, g: Jet | Constant) -> Jet:
+    f, g = _jet(f), _jet(g)
+    bend = f.bend * g.value + 2 * (f.slope * g.slope) + f.value * g.bend
+    return Jet(f.value * g.value, f.slope * g.value + f.value * g.slope, bend)
+
+
+def _divide(f: Jet | Constant, g: Jet | Constant) -> Jet:
+    f, g = _jet(f), _jet(g)
+    value = f.value / g.value
+    slope = (f.slope - value * g.slope) / g.value
+    return Jet(value, slope, (f.bend - value * g.bend - 2 * slope * g.slope) / g.value)
+
+
+def _sqrt(f: Jet) -> Jet:
+    root = np.sqrt(f.value)
+    slope = f.slope / (2 * root)
+    return Jet(root, slope, (f.bend - 2 * slope * slope) / (2 * root))
+
+
+def _tan(f: Jet) -> Jet:
+    tangent = np.tan(f.value)
+    rate = 1 + tangent * tangent
+    return Jet(tangent, rate * f.slope, rate * (f.bend + 2 * tangent * f.slope * f.slope))
+
+
+_UFUNC_RULES: dict[np.ufunc, Callable[..., Jet]] = {
+    np.add: _add,
+    np.subtract: _subtract,
+    np.multiply: _multiply,
+    np.divide: _divide,
+    np.negative: _negative,
+    np.sqrt: _sqrt,
+    np.tan: _tan,
+}
+"""How each of numpy's operations treats such quantities."""
+
+
+# --- the motion on a cam that was made -------------------------------------------------------------------------------
 
 MAX_NEWTON_STEPS = 20
 """Newton's steps; three or four do where waves are shallow."""
@@ -111,28 +198,6 @@ class MadeCam:
         seen = np.exp(1j * self.cam.sigma * (phi - theta))
         point = x + 1j * np.asarray(y) + (delta - r) * normal + reach * made
         return Contour(point * seen, made * seen, turning / speed, speed, turning)
-
-
-def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, Floats, Floats]:
-    """How far (s, v, a) are off to the first order, of the same deviations at cam angles phi [rad].
-
-    >>> import graphcam as gc
-    >>> from math import pi
-    >>> motion = gc.Motion([gc.Rise(10, pi), gc.Return(10, pi)])
-    >>> cam = gc.Cam(motion, gc.Translating(roller_radius=8), prime_radius=30)
-    >>> wave = gc.Deviations((20,), np.array([0.01]), {})
-    >>> [off.round(4).tolist() for off in linear_off(cam, np.array([0.0]), wave)]
-    [[0.01], [0.0], [-4.0]]
-    """
-    lifted = lifts_by_error(cam.kinematics, cam.motion(phi))
-    delta, slope, bend = deviations.waviness(phi)
-    profile = lifted["profile"]
-    s = profile.value * delta
-    v = profile.slope * delta + profile.value * slope
-    a = profile.bend * delta + 2 * profile.slope * slope + profile.value * bend
-    for name, off in deviations.sizes.items():
-        s, v, a = s + off * lifted[name].value, v + off * lifted[name].slope, a + off * lifted[name].bend
-    return s, v, a
 
 
 def lifts_by_error(kin: Any, values: Values) -> dict[str, Jet]:

@@ -11,8 +11,6 @@ Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4, 
 derived from it, and held to envelopes at 50 digits in the tests.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,9 +22,8 @@ import numpy as np
 from graphcam.errors import DesignError, check_number
 from graphcam.given.follower import Limits, OscillatingFlat, Rotation, sense, swing_remedy
 from graphcam.given.laws import Floats
-from graphcam.given.load_curve import largest
 from graphcam.given.motion import Motion
-from graphcam.given.spring_load import FollowerLoad, PlacedArmLoad
+from graphcam.given.spring_load import FollowerLoad, PlacedArmLoad, largest
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
 from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
 from graphcam.mechanism.turn_extremes import highest_places, velocity_range
@@ -108,8 +105,7 @@ class OscillatingFlatKinematics(Kinematics):
         if math.isnan(self.psi0):
             left = 90.0 - math.degrees(math.asin((r0 + f) / c))
             limit = say(
-                "less than the {left:g} degrees from the lower dwell to a face square to the line of centres",
-                left=left,
+                "less than the {left:g} degrees from the lower dwell to a face square to the line of centres", left=left
             )
             remedy = say("make the lift or the prime radius smaller, or the centre distance longer")
             lift = say("{degrees:g} degrees", degrees=math.degrees(self.swing))
@@ -297,11 +293,7 @@ class OscillatingFlatKinematics(Kinematics):
     def _angle_by_sizes_at_rest(self) -> dict[str, Any]:
         """The derivatives of psi0, c sin(psi0) = r0 + f, by r0, f and c [rad/mm]."""
         by_radius = 1 / (self.distance * np.cos(self.psi0))
-        return {
-            "prime_radius": by_radius,
-            "face_offset": by_radius,
-            "distance": -np.tan(self.psi0) / self.distance,
-        }
+        return {"prime_radius": by_radius, "face_offset": by_radius, "distance": -np.tan(self.psi0) / self.distance}
 
     def angle_by_sizes(self, values: Values) -> dict[str, Floats]:
         """alpha = arg(q - i f) turns by (f dq - q df)/(q^2 + f^2), with q = c cos(psi)/w."""

@@ -19,8 +19,6 @@ Sources: L. N. Trefethen, *Approximation Theory and Approximation Practice* (201
 S. S. Rao, *Mechanical Vibrations* (2011), chapter 2.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -23,9 +23,8 @@ from graphcam.given.roller_rule import Candidate
 from graphcam.given.spring_load import FollowerLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact
-from graphcam.mechanism.forces import CamForces
+from graphcam.mechanism.forces import CamForces, check_friction
 from graphcam.mechanism.hertz import ContactStress
-from graphcam.mechanism.jamming import check_friction
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.translating import TranslatingKinematics
 from graphcam.mechanism.turn_extremes import Places, smooth_pieces, stationary_places

@@ -6,8 +6,6 @@ divided difference of three rows is the mean of s'' over their interval, weighte
 row.  Rows at distances p and q that are off by the tolerance t at most change it by 4 t/(p q) at most.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

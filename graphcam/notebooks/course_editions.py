@@ -4,8 +4,6 @@ The student's edition has no model answers, no cells that check the author, and 
 are kept as text, as :func:`~graphcam.notebooks.question.kept_questions` reads it.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

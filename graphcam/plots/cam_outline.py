@@ -1,7 +1,5 @@
 """A cam at the start of its turn: pitch curve, working profile, prime circle, and the roller or the flat face."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """Constructions as plots: one as a whole or up to a step, a single step, or all constructions of a cam."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """Figures of matplotlib: the axes that are drawn on, and a figure as SVG."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from io import StringIO
 from typing import Any

@@ -1,7 +1,5 @@
 """Forces, torque and contact stress over the turn of the cam."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

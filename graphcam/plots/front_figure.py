@@ -1,7 +1,5 @@
 """The Pareto front of size and pressure angle that a sweep found, as a figure."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure
 

@@ -1,7 +1,5 @@
 """A motion over one turn of the cam: s, v, a and j one under the other, and the bands of its tolerances."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

@@ -1,7 +1,5 @@
 """An elastic follower: its response to one rise, its steady motion over a turn, and shock spectra."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

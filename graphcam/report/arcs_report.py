@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphcam.comparison.phase_speeds import UNITS_PER_SPEED
+from graphcam.comparison.quantities import UNITS_PER_SPEED
 from graphcam.constructions.axes import sense_caption
 from graphcam.given.follower import omega_of
 from graphcam.given.laws import Floats

@@ -4,8 +4,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, station_names
 from graphcam.drafting.scale import unit
-from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import ArmLoad, SpringLoad
+from graphcam.given.spring_load import ArmLoad, LoadCurve, SpringLoad
 from graphcam.report.markdown import Block, Equation, Grid, formula, general, number, numbers, warning
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import IDLE_CAPTION, SpringDesign, with_unit
@@ -40,12 +39,7 @@ def _formula(load: SpringLoad | ArmLoad) -> str:
 def contact(solution: Solution) -> list[Block]:
     """The chapter on contact: the spring's preload, the minimum contact force, and where contact is lost."""
     spring = _spring(solution)
-    load, needed, least, lost = (
-        spring.load,
-        spring.least,
-        spring.contact.min_force(),
-        and_list(spring.lost),
-    )
+    load, needed, least, lost = (spring.load, spring.least, spring.contact.min_force(), and_list(spring.lost))
     along, preload, _ = spring.units
     keeps = say(
         "A preload of at least {preload} {unit} keeps contact over the whole turn; it is needed at φ = {phi}.",

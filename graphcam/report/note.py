@@ -4,8 +4,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from graphcam.comparison.bounds import CHANGE_TO_ERROR_FACTOR, DEVIATION_COUNT, HAND_COUNT, REFINEMENTS
-from graphcam.comparison.phase_speeds import UNITS_PER_SPEED
-from graphcam.comparison.quantities import PRINTED_ERROR
+from graphcam.comparison.quantities import PRINTED_ERROR, UNITS_PER_SPEED
 from graphcam.constructions.axes import phase_title
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import unit

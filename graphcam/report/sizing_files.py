@@ -13,8 +13,7 @@ from graphcam.files import digest, whole_folder
 from graphcam.language import language as language_of
 from graphcam.report.output_folder import SHEET_KINDS, ignore_progress, write_sheet, written_before
 from graphcam.report.sheet_contents import title_block
-from graphcam.report.sizing_sheet import sizing_sheet
-from graphcam.report.sizing_tables import TITLES_BY_OBJECTIVE
+from graphcam.report.sizing_sheet import TITLES_BY_OBJECTIVE, sizing_sheet
 from graphcam.solving.sizing_design import plain_cam
 from graphcam.tasks.task_writer import TASK_FILE, task_files
 from graphcam.words import Words, say

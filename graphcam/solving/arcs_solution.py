@@ -1,7 +1,5 @@
 """Task to solution, of a cam of three circular arcs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -11,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphcam import __version__
-from graphcam.comparison.arc_quantities import ArcsComparison
+from graphcam.comparison.quantities import ArcsComparison
 from graphcam.constructions.arc_chain import CENTRES_ROOM, ArcBoard, ArcChain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil

@@ -1,7 +1,5 @@
 """Sizing a task: the best cam in the ranges of its table ``[sizing]``, the front beside it, and round sizes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -215,12 +213,7 @@ def _problem(task: Task, table: SizingTable) -> SizingProblem:
     assert speed is not None
     asked, given = task.limits(), table.ranges()
     limits = SizingLimits(
-        material.permitted_stress,
-        asked.rise,
-        asked.return_,
-        task.roller_terms,
-        material(),
-        spring.friction,
+        material.permitted_stress, asked.rise, asked.return_, task.roller_terms, material(), spring.friction
     )
     measure: Measure = "base radius" if table.prime_radius is None else "prime radius"
     offset, roller = (getattr(follower, name) or 0.0 for name in follower.sought)

@@ -1,7 +1,5 @@
 """Task to solution: the constructions, drawn; the same cam, exact; and the two beside each other."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -27,14 +25,7 @@ from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.solving.adopted_sizes import FaceDesign, adopted_cautions, face_design
 from graphcam.solving.division_warnings import coarse_divisions, disagreement, unreadable_bend
 from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
-from graphcam.solving.solution_warnings import (
-    Caution,
-    closed_turn,
-    less_round,
-    title_scale,
-    unit_slips,
-    warnings_of,
-)
+from graphcam.solving.solution_warnings import Caution, closed_turn, less_round, title_scale, unit_slips, warnings_of
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of

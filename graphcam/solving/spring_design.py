@@ -16,12 +16,10 @@ from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import unit
 from graphcam.given.follower import MM_PER_M
 from graphcam.given.laws import Floats
-from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import ArmLoad, SpringLoad
+from graphcam.given.spring_load import ArmLoad, LoadCurve, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
-from graphcam.mechanism.forces import CamForces, Forces, mean_torque
-from graphcam.mechanism.jamming import jamming_margin
+from graphcam.mechanism.forces import CamForces, Forces, jamming_margin, mean_torque
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text
@@ -164,11 +162,7 @@ class SpringDesign:
         least, (along, preload, _) = self.contact.min_force(), self.units
         mean, most, fewest = self.torques
         return {
-            "least_preload": {
-                "value": self.needed,
-                "unit": preload,
-                "phi_deg": math.degrees(self.least.phi),
-            },
+            "least_preload": {"value": self.needed, "unit": preload, "phi_deg": math.degrees(self.least.phi)},
             "preload": {"value": self.load.preload, "unit": preload},
             "least_contact_force": plain_place(least, along),
             "least_normal_force": plain_place(self.forces.min_normal(), "N"),
@@ -337,11 +331,7 @@ class SpringDesign:
         lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
-            (
-                say("minimum preload"),
-                with_unit(self.needed, preload),
-                say("at {phi}", phi=degrees(self.least.phi)),
-            ),
+            (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
             (contact, with_unit(_without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),

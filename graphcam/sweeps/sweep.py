@@ -1,9 +1,7 @@
 """The sweep: quantities of many designs, in chunks that stay in the cache, on as many processors as there are."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
 from typing import Any
@@ -18,17 +16,34 @@ from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.motion_bands import COVERAGE
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, QuantityUnderLoad, SweptLoad
-from graphcam.sweeps.sweep_quantities import (
-    BAND_QUANTITIES,
-    QUANTITIES,
-    Chunk,
-    Quantity,
-    QuantityOfErrors,
-    SweptErrors,
-)
-from graphcam.sweeps.swept import Swept
+from graphcam.sweeps.sweep_quantities import BAND_QUANTITIES, QUANTITIES, Chunk, Quantity, QuantityOfErrors, SweptErrors
 from graphcam.words import say
 from graphcam.workers import ordered_results
+
+
+class Swept(dict[str, NDArray[Any]]):
+    """The quantities of a sweep by name, (n,) each; and with what differs from design to design, as a table."""
+
+    def __init__(self, columns: Mapping[str, NDArray[Any]], designs: Designs) -> None:
+        super().__init__(columns)
+        self.designs = designs
+
+    @property
+    def array(self) -> NDArray[Any]:
+        """(n,) a structured array: the sizes, laws and senses that differ, then the quantities."""
+        columns = self.designs.varied | self
+        kinds = [(name, column.dtype) for name, column in columns.items()]
+        found = np.empty(len(self.designs), dtype=kinds)
+        for name, column in columns.items():
+            found[name] = column
+        return found
+
+    def frame(self) -> Any:
+        """The same as a DataFrame of pandas, which must be installed."""
+        import pandas
+
+        return pandas.DataFrame(self.designs.varied | self)
+
 
 CHUNK_OF_DESIGNS = 4096
 """Designs that are computed at a time: what they need stays in the processor's cache."""

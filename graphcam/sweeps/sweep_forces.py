@@ -7,9 +7,8 @@ import numpy as np
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.laws import Floats
-from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import ArmLoad, FollowerLoad, SpringLoad
-from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
+from graphcam.given.spring_load import ArmLoad, FollowerLoad, LoadCurve, SpringLoad
+from graphcam.mechanism.forces import check_friction, lever_about_cam, transmitted
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.sweep_maxima import Numbers, SoughtQuantity
 from graphcam.words import say

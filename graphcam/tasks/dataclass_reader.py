@@ -7,17 +7,16 @@ What a hint may be: ``float``, a type of :mod:`graphcam.tasks.units`, ``int``, `
 :class:`ByKind` or :class:`ByKeys` one of several dataclasses.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache, reduce
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from graphcam.errors import DesignError
+from graphcam.tasks.number_limits import field_types
 from graphcam.tasks.units import HeldIn, InUnit
 from graphcam.words import Words, or_list, say
 
@@ -37,6 +36,40 @@ class ByKeys:
 
 class ByName:
     """Marks a field whose value is a name in a file, whatever other types it may have in Python."""
+
+
+Classes = dict[tuple[str, ...], type]
+
+
+@cache
+def classes_of(kind: type) -> Classes:
+    """The class of each table of a file that is read as a dataclass, by its place without numbers.
+
+    Of several classes that are told apart by their keys the first stands for all.
+
+    >>> from graphcam.tasks.arcs_task import ArcsTask
+    >>> [*classes_of(ArcsTask)]
+    [(), ('arcs',), ('follower',), ('title',), ('drawing',), ('part',)]
+    """
+    found: Classes = {(): kind}
+    for name, hint in field_types(kind).items():
+        for tag, table in _tables(hint):
+            inner = {(name, *tag, *place): each for place, each in classes_of(table).items()}
+            found |= {place: each for place, each in inner.items() if place not in found}
+    return found
+
+
+def _tables(hint: Any, *, by_kind: bool = False) -> Iterator[tuple[tuple[str, ...], type]]:
+    """The dataclasses of a hint, each with its kind where that tells them apart."""
+    if hasattr(hint, "__metadata__"):
+        if any(isinstance(mark, ByName) for mark in hint.__metadata__):
+            return
+        by_kind, hint = any(isinstance(mark, ByKind) for mark in hint.__metadata__), hint.__origin__
+    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
+        yield (get_args(field_types(hint)["kind"]) if by_kind else ()), hint
+    else:
+        for part in get_args(hint):
+            yield from _tables(part, by_kind=by_kind)
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from graphcam.errors import DesignError
-from graphcam.given.load_curve import Load, LoadCurve
-from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
+from graphcam.given.spring_load import ArmLoad, ArmSpring, Load, LoadCurve, SpringLoad
 from graphcam.tasks.declared_numbers import About, Fixed, Ruled
 from graphcam.tasks.number_limits import NotNegative, Positive, Within, check_limits
 from graphcam.tasks.units import (

@@ -5,10 +5,9 @@ the file, ``task.motion()`` is the :class:`~graphcam.given.motion.Motion` in rad
 it is given a meaning, once, whether it comes from a file or from Python.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from textwrap import shorten
@@ -17,6 +16,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from graphcam.errors import DesignError
 from graphcam.given.follower import (
     FlatFaced,
+    Follower,
     Limits,
     Oscillating,
     OscillatingFlat,
@@ -62,7 +62,7 @@ GIVEN_CAM_KEYS = {
 SWINGING_FACE_REMEDY = "under a face that swings the curvature limits the cam; give limits.min_curvature_radius"
 
 
-class _FollowerTable:
+class _FollowerTable(ABC):
     """The properties of ``[follower]`` that a task uses; each kind states what differs from a stem with a roller."""
 
     roller_radius: float | None
@@ -76,6 +76,16 @@ class _FollowerTable:
     """Whether it runs over a corner of the cam; a flat face can touch none."""
     made_to: ClassVar[tuple[str, ...]] = ("roller_diameter", "offset")
     """The sizes of this kind of follower that may have a tolerance."""
+    roller_rule: str
+
+    def __post_init__(self) -> None:
+        self()
+        check_limits(self)
+        roller_rule(self.roller_rule)
+
+    @abstractmethod
+    def __call__(self) -> Follower:
+        """The follower."""
 
     @property
     def made_sizes(self) -> tuple[str, ...]:
@@ -123,11 +133,6 @@ class TranslatingTable(_FollowerTable):
     kind: Literal["translating"] = "translating"
     sought = "offset", "roller_radius"
 
-    def __post_init__(self) -> None:
-        self()
-        check_limits(self)
-        roller_rule(self.roller_rule)
-
     def __call__(self) -> Translating:
         """The follower; an open offset and an open roller radius are 0: a central follower, a knife edge."""
         return Translating(self.offset or 0.0, self.roller_radius or 0.0)
@@ -171,11 +176,6 @@ class OscillatingTable(_FollowerTable):
     swings = True
     made_to = "roller_diameter", "distance", "arm"
 
-    def __post_init__(self) -> None:
-        self()
-        check_limits(self)
-        roller_rule(self.roller_rule)
-
     @property
     def lift_unit(self) -> float:
         """The unit of the phases' lift [rad]: a degree, or a mm of arc."""
@@ -205,9 +205,6 @@ class FlatFacedTable(_FollowerTable):
     roller_rule = DEFAULT_RULE
     made_to = ()
     without: ClassVar = {"pressure_angle_rise": NO_FACE_REMEDY, "pressure_angle_return": NO_FACE_REMEDY}
-
-    def __post_init__(self) -> None:
-        check_limits(self)
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -467,12 +464,7 @@ class Task:
             return
         if self.speed_rpm is None:
             limit = say("given where there is a spring")
-            raise DesignError(
-                "speed_rpm",
-                say("missing"),
-                limit,
-                say("the force of inertia grows with the speed"),
-            )
+            raise DesignError("speed_rpm", say("missing"), limit, say("the force of inertia grows with the speed"))
         if velocity_jumps(self.motion()):
             raise DesignError("spring", say("given"), say("left out where the velocity jumps"), NO_FORCE)
         if self.follower.swings and not self.spring.swings:

@@ -1,7 +1,5 @@
 """Task files: TOML in, a task out, or one error that says which field is wrong and why."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import re
@@ -26,9 +24,10 @@ from graphcam.errors import (
     unreadable_error,
 )
 from graphcam.given.table_file import Turn, read_table
-from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
+from graphcam.tasks import motion_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.dataclass_reader import (
+    Classes,
     Fault,
     Misfit,
     MissingKey,
@@ -36,16 +35,13 @@ from graphcam.tasks.dataclass_reader import (
     UnknownKey,
     UnknownKind,
     WrongType,
+    classes_of,
     read_dataclass,
 )
 from graphcam.tasks.declared_numbers import declared
-from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.outline_file import outline_from_dxf
-from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault, value_remedy
-from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_lines import lines_of
 from graphcam.tasks.units import numbers_in_units
 from graphcam.words import Caption, Words, and_chain, bare_caption, say
@@ -56,41 +52,7 @@ SIZING_TASK_NAME = "sizing"
 """The name of the built-in task with a table ``[sizing]``."""
 THE_FILE = say("the task file")
 EXAMPLE_REMEDY = say("'graphcam init FILE' writes a commented example")
-Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
-_CLASSES: Classes = {
-    (): Task,
-    ("title",): tables.TitleTable,
-    ("motion",): motion_tables.MotionTable,
-    ("motion", "phases", "rise"): motion_tables.RiseTable,
-    ("motion", "phases", "dwell"): motion_tables.DwellTable,
-    ("motion", "phases", "return"): motion_tables.ReturnTable,
-    ("motion", "radii"): motion_tables.RadiiTable,
-    ("motion", "parts", "polynomial"): motion_tables.PolynomialTable,
-    ("motion", "parts", "polynomial", "points"): motion_tables.PointTable,
-    ("motion", "parts", "spline"): motion_tables.SplineTable,
-    ("motion", "parts", "spline", "points"): motion_tables.PointTable,
-    **{("follower", kind): table for kind, table in tables.FOLLOWER_TABLES.items()},
-    ("cam",): tables.CamTable,
-    ("limits",): tables.LimitsTable,
-    ("spring",): spring_tables.SpringTable,
-    ("spring", "at"): spring_tables.ArmSpringPlace,
-    ("material",): MaterialTable,
-    ("tolerances",): TolerancesTable,
-    ("sizing",): SizingTable,
-    ("drawing",): tables.DrawingTable,
-    ("part",): PartTable,
-}
-"""The class of each table of a file, by its place without numbers."""
-_CLASSES_OF_ARCS: Classes = {
-    (): ArcsTask,
-    ("title",): tables.TitleTable,
-    ("arcs",): arcs.ArcsTable,
-    ("follower",): arcs.RollerTable,
-    ("drawing",): arcs.ArcsDrawingTable,
-    ("part",): PartTable,
-}
-"""The class of each table of the file of a cam of three circular arcs, by its place without numbers."""
 _KEYS_BY_QUANTITY = {
     "sum of the phase angles": "phases",
     "sum of rises less returns": "phases",
@@ -358,10 +320,10 @@ def _task(path: str, data: dict[str, Any], whole: dict[str, Any], read: ReadToml
         # The radii of a given cam are a motion, of which ``[arcs]`` is the table.
         whole = {"rotation": "ccw", **whole, "motion": {"radii": arcs}}
         del whole["arcs"]
-        return checked_table(Task, _CLASSES, path, data, whole, read)
+        return checked_table(Task, classes_of(Task), path, data, whole, read)
     if arcs is not None:
-        return checked_table(ArcsTask, _CLASSES_OF_ARCS, path, data, whole, read)
-    return checked_table(Task, _CLASSES, path, data, whole, read)
+        return checked_table(ArcsTask, classes_of(ArcsTask), path, data, whole, read)
+    return checked_table(Task, classes_of(Task), path, data, whole, read)
 
 
 def checked_table(
@@ -532,7 +494,7 @@ def path_of_key(quantity: str) -> str:
     ('follower.roller_radius', 'motion.phases', 'drawing.poles[1]', '')
     """
     key, bracket, index = _KEYS_BY_QUANTITY.get(quantity, quantity.replace(" ", "_")).rpartition(".")[2].partition("[")
-    for place, table in (*_CLASSES.items(), *_CLASSES_OF_ARCS.items()):
+    for place, table in (*classes_of(Task).items(), *classes_of(ArcsTask).items()):
         if key not in _keys(table):
             continue
         if place[1:2] and place[1] in LISTS:

@@ -6,8 +6,6 @@ Of what is not TOML a parser only says where it stopped.  Here the line is looke
 a typographic minus or quotes, text without quotes, a number with a comma or a unit.
 """
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Iterable, Mapping

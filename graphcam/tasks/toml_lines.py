@@ -1,7 +1,5 @@
 """The lines of a TOML file at which its keys and list entries stand, for messages about them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

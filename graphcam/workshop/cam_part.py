@@ -1,7 +1,5 @@
 """The part that is made of a cam: sizes from the table ``[part]``, and others that follow from the cam."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

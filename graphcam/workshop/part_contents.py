@@ -1,7 +1,5 @@
 """The contents of the working drawing: the part, its exact outline, its polar table, notes, and the title block."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

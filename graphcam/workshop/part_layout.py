@@ -4,8 +4,6 @@ The true view stands at the upper left and the section beside it, the notes over
 the polar table go where there is room.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

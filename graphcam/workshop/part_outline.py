@@ -4,8 +4,6 @@ It is followed span by span, each smooth and in the order in which the follower 
 exact side, and of an undercut cam around its corners, where the point stays and the normal turns.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

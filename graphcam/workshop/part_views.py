@@ -3,8 +3,6 @@
 A view is drawn about a place of the page; its labels find room by themselves.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Sequence
@@ -206,10 +204,7 @@ def _radius_dimension(
     outside = abs(at - inner) < room
     # Between the detail's circle and the profile where there is room, else beyond the profile.
     begin, end = (at + 2 * way, at + room * way) if outside else (inner, at)
-    lines: tuple[Entity, ...] = (
-        segments((origin, end)),
-        head(at - 0.35 * way, way, Role.DIMENSION),
-    )
+    lines: tuple[Entity, ...] = (segments((origin, end)), head(at - 0.35 * way, way, Role.DIMENSION))
     writing = label_along(begin, end, told, height)
     measured = Length(origin, at, origin, lines)
     return list(lines), replace(writing, of=measured)

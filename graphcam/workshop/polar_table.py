@@ -5,8 +5,6 @@ stated part of the profile's tolerance, a step is divided, in a round number of 
 has a row of its own.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

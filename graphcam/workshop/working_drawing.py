@@ -4,8 +4,6 @@ It takes the smallest sheet on which everything stands side by side at a standar
 largest goes on with the polar table on further pages.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass

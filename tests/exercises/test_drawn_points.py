@@ -11,7 +11,7 @@ from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.reading.submission_files import from_files
-from graphcam.exercises.reports.curves import worst_place
+from graphcam.exercises.reports.unrolled_drawings import worst_place
 
 NAME, ASKED, LAYER = "inversion-arm", "rollers", "ROLLERS"
 Points = np.ndarray

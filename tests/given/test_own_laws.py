@@ -16,7 +16,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 import graphcam as gc
 from graphcam.constructions.law_names import law_name
-from graphcam.mechanism.least_radius_translating import steepest_tangent
+from graphcam.mechanism.least_radius_lines import steepest_tangent
 from graphcam.mechanism.turn_extremes import max_acceleration, max_velocity
 from graphcam.report.documents import note_of, sheet_of
 from graphcam.report.output_folder import write

@@ -11,7 +11,7 @@ from over_all import over_all, over_seeds
 from test_outline_motion import outline_points, random_cam
 
 import graphcam as gc
-from graphcam.given.follower_on_cam import trace
+from graphcam.given.point_outline import trace
 from graphcam.tasks.task_writer import task_files
 
 CLOSE = 1.5e-4

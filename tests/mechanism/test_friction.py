@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from over_all import over_all
 
 import graphcam as gc
-from graphcam.mechanism.jamming import transmission
+from graphcam.mechanism.forces import transmission
 from graphcam.mechanism.turn_extremes import places_in, smooth_pieces
 
 DEG = math.pi / 180

@@ -16,7 +16,7 @@ from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.least_radius_translating import steepest_tangent
+from graphcam.mechanism.least_radius_lines import steepest_tangent
 
 DEG = math.pi / 180
 

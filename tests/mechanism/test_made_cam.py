@@ -10,7 +10,7 @@ import pytest
 from over_all import over_all
 
 import graphcam as gc
-from graphcam.mechanism.made_cam import linear_off
+from graphcam.mechanism.made_cam import lifts_by_error
 
 WAVES = (2, 9), np.array([0.02, 0.004 * np.exp(1j)])
 SIZES = {
@@ -20,6 +20,19 @@ SIZES = {
 }
 SECOND_ORDER = 0.02
 """How far the fitted order may be off 2."""
+
+
+def linear_off(cam: gc.Cam, phi: np.ndarray, deviations: gc.Deviations) -> tuple[np.ndarray, ...]:
+    """How far (s, v, a) are off to the first order, of the same deviations at cam angles phi [rad]."""
+    lifted = lifts_by_error(cam.kinematics, cam.motion(phi))
+    delta, slope, bend = deviations.waviness(phi)
+    profile = lifted["profile"]
+    s = profile.value * delta
+    v = profile.slope * delta + profile.value * slope
+    a = profile.bend * delta + 2 * profile.slope * slope + profile.value * bend
+    for name, off in deviations.sizes.items():
+        s, v, a = s + off * lifted[name].value, v + off * lifted[name].slope, a + off * lifted[name].bend
+    return s, v, a
 
 
 def motion(lift: float, rise: str = "3-4-5") -> gc.Motion:

@@ -12,8 +12,8 @@ from over_all import over_all, over_seeds
 
 import graphcam as gc
 from graphcam.given.laws import LAWS, RISE_FALL_LAWS
+from graphcam.given.monotone_spline import MEASURED_LAW
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.given.spline_law import MEASURED_LAW
 
 CLOSE = 1e-13
 """Of what the exact side tells; its own rounding is some 1e-15."""

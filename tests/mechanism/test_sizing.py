@@ -12,9 +12,8 @@ import pytest
 from over_all import over_all, over_seeds
 
 import graphcam as gc
-from graphcam.mechanism.sizing import feasible_region, pareto_front
+from graphcam.mechanism.sizing import WIDTH_SLACK, feasible_region, pareto_front
 from graphcam.mechanism.sizing_limits import CURVATURE_LIMIT, LIMITS, SHARE_LIMIT, Sizes, TurnPlaces, margins
-from graphcam.mechanism.sizing_search import WIDTH_SLACK
 
 DEG = math.pi / 180
 
@@ -178,9 +177,9 @@ def test_the_sheet_of_the_region_is_drawn(tmp_path):
 
 
 def test_the_sheet_of_the_region_speaks_russian():
+    from graphcam.report.sizing_sheet import BINDING_CAPTIONS
     from russian import english_words
 
-    from graphcam.report.sizing_tables import BINDING_CAPTIONS
     from graphcam.sheets.model import Text
 
     for name in ("angle and stress", "spring"):

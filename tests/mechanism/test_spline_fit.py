@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from over_all import over_all
 from scipy.interpolate import BSpline, make_lsq_spline
 
-from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted_control_points, solve_banded
+from graphcam.mechanism.profile_spline import Conditions, at_ends, basis, fitted_control_points, solve_banded
 
 DEGREES = (1, 2, 3, 4, 5)
 

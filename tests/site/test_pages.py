@@ -19,7 +19,7 @@ from mpmath import mp, mpf
 from pages import BLOCK, HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
 import graphcam as gc
-from graphcam.given.declared_law import DeclaredLaw
+from graphcam.given.declared_laws import DeclaredLaw
 from graphcam.given.stations import divide
 from graphcam.sweeps.dataset import parts_of
 
@@ -310,7 +310,7 @@ def test_the_law_of_the_page_lands_by_one_file_and_its_place_in_the_list(tmp_pat
     (tmp_path / "graphcam/given/law_5_6_7_8_9.py").write_text(blocks("how-to/add-a-law.md", "python")[-1], "utf-8")
     for before, line in (
         ("from graphcam.given.motion_law", "from graphcam.given.law_5_6_7_8_9 import POLYNOMIAL_5_6_7_8_9\n"),
-        ("        *(DOUBLE_HARMONIC", "        POLYNOMIAL_5_6_7_8_9,\n"),
+        ("*TEXTBOOK_LAWS,", "POLYNOMIAL_5_6_7_8_9, "),
     ):
         assert text.count(before) == 1
         text = text.replace(before, line + before)

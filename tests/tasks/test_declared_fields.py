@@ -17,6 +17,7 @@ from graphcam.studio.size_ranges import ranges
 from graphcam.studio.sizes_form import form_of
 from graphcam.tasks import commented_task, task_file
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.dataclass_reader import classes_of
 from graphcam.tasks.declared_numbers import Fixed, Ruled, declared, numbers_of
 from graphcam.tasks.spring_tables import ArmSpringTable
 from graphcam.tasks.task import DrawingTable, Task
@@ -74,14 +75,11 @@ class TaskWithStation(Task):
     drawing: WithStation = dataclasses.field(default_factory=WithStation)
 
 
-CLASSES = {**task_file._CLASSES, (): TaskWithStation, ("drawing",): WithStation}
-
-
 def read(**drawing: Any) -> TaskWithStation:
     """The coursework task with such keys of its drawing."""
     said = gc.builtin_task().to_dict()
     said["drawing"] |= drawing
-    return task_file.checked_table(TaskWithStation, CLASSES, "task", said, said)
+    return task_file.checked_table(TaskWithStation, classes_of(TaskWithStation), "task", said, said)
 
 
 def test_the_how_to_adds_the_same_field():

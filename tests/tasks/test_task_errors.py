@@ -17,7 +17,9 @@ from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.errors import TaskError
 from graphcam.given.laws import LAWS
 from graphcam.language import language, languages
-from graphcam.tasks.task_file import _CLASSES as CLASSES, _keys as keys_of, builtin_text, load_task
+from graphcam.tasks.dataclass_reader import classes_of
+from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import _keys as keys_of, builtin_text, load_task
 from graphcam.tasks.units import UNITS
 
 WHOLE = builtin_text("coursework") + "\n[cam]\nprime_radius = 50\n"
@@ -200,7 +202,8 @@ def test_the_command_line_says_it_once_and_leaves_nothing(fault, tmp_path):
 
 
 NAMES = {
-    *(key for table in CLASSES.values() for key in keys_of(table)), *(step for place in CLASSES for step in place),
+    *(key for table in classes_of(Task).values() for key in keys_of(table)),
+    *(step for place in classes_of(Task) for step in place),
     "cam", "ccw", "FILE", "graphcam", "inf", "init", "min", "nan", "rho", "TOML", "true", *LAWS,
     *(unit for units in UNITS.values() for unit in units),
     "True", "false", "lfit", "limit", "motoin", "ofset", "prime_radus", "speed_prm",

@@ -33,12 +33,11 @@ from graphcam.studio.task_paths import changed_task, steps_of, value_at
 from graphcam.studio.task_text import opened_task, plain_task
 from graphcam.sweeps.design_space import load_space
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.dataclass_reader import classes_of
 from graphcam.tasks.declared_numbers import Fixed, declared
 from graphcam.tasks.spring_tables import ArmSpringTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import (
-    _CLASSES as CLASSES,
-    _CLASSES_OF_ARCS as CLASSES_OF_ARCS,
     builtin_arcs_task,
     builtin_text,
     task_from,
@@ -170,7 +169,7 @@ def hinted(hint: Any) -> bool:
 
 
 def test_the_tasks_have_every_field_that_has_a_unit():
-    tables = {*CLASSES.values(), *CLASSES_OF_ARCS.values(), ArmSpringTable}
+    tables = {*classes_of(Task).values(), *classes_of(ArcsTask).values(), ArmSpringTable}
     asked = {
         (table, name)
         for table in tables

@@ -19,8 +19,9 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.student_hands import HandTable
 from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
+from graphcam.tasks.dataclass_reader import Classes
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task_file import Classes, checked_table, other_file, read_content, read_toml
+from graphcam.tasks.task_file import checked_table, other_file, read_content, read_toml
 from graphcam.words import say
 
 REMEDY = say("see exercises/README.md")

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.expected_answers import Expected, paired
 from graphcam.exercises.photographs.photographed_page import jpeg
-from graphcam.exercises.reports.curves import nearest_places
-from graphcam.exercises.reports.unrolled_drawings import key_line
+from graphcam.exercises.reports.unrolled_drawings import key_line, nearest_places
 from graphcam.photo.printed_page import Edges, Points
 
 DEVIATION_MAGNIFICATION = 10.0

@@ -18,9 +18,16 @@ from graphcam.exercises.key.expected_answers import Floats
 from graphcam.exercises.marking.copy_detection import FALSE_ALARM_RATE, AlikePair
 from graphcam.exercises.marking.exactness import REMARK_RATE
 from graphcam.exercises.marking.record import is_handed_in
-from graphcam.exercises.reports.curves import CurvePicture, points_of, worst_place
 from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
-from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along, over_key
+from graphcam.exercises.reports.unrolled_drawings import (
+    Bundle,
+    CurvePicture,
+    bundle,
+    deviations_along,
+    over_key,
+    points_of,
+    worst_place,
+)
 from graphcam.exercises.reports.web_pages import page
 from graphcam.words import Caption, Words, say, sequence
 

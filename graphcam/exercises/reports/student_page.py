@@ -8,9 +8,8 @@ from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import is_handed_in
-from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
 from graphcam.exercises.reports.first_wrong_step import first_step_off
-from graphcam.exercises.reports.unrolled_drawings import over_key
+from graphcam.exercises.reports.unrolled_drawings import CurvePicture, over_key, picture, points_of, worst_place
 from graphcam.exercises.reports.web_pages import page
 from graphcam.report.markdown import number
 from graphcam.words import Caption, Words, say

@@ -1,6 +1,20 @@
-"""The minimum prime radius of an oscillating follower: the region for the cam centre, cut out by lines.
+"""The minimum prime radius of a follower with a roller: the region for the cam centre, cut out by lines.
 
-The arm is drawn in its positions about the pivot, the low one along the real axis, and along each the segment l v from
+Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
+
+A translating follower: with e' = sigma e the pressure angle is permitted on the rises and on the returns, their ends
+included, where
+
+    s0 tan A  + e' >= M,    M  = max over the rises of (v - s tan A)
+    s0 tan A  - e' >= 0
+    s0 tan A' - e' >= M',   M' = max over the returns of (|v| - s tan A')
+    s0 tan A' + e' >= 0
+
+so the cam centre lies in a region bounded by lines, and r0 is its distance from the start of the lift.  The second and
+the fourth, of |alpha| in the lower dwell, say that the angle keeps its limit on the side to which no velocity drives
+it: there |v| and s only help, so the end of the phase decides.
+
+An arm is drawn in its positions about the pivot, the low one along the real axis, and along each the segment l v from
 the trace point, outwards on a rise if cam and arm turn in opposite senses (sigma = +1), else inwards.  The cam centre
 sees that arm at the pressure angle alpha, tan(alpha) = (l (1 + sigma v) - c cos(psi))/(c sin(psi)), so through each end
 of l v go two lines at the limit A to the arm's normal, alpha <= A and alpha >= -A.  With R the vector from the start of
@@ -12,34 +26,290 @@ On a rise the velocity drives the angle towards the line tau = sigma, on a retur
 can only bind at rest: it gives way with |v|, and for v = 0 it leaves psi an arc, so that the lowest and the highest
 lift decide.
 
-Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
-
-With P = l + R, the vector from the pivot to the
-cam centre, |P| = c, the point R lies beyond the line of a place by
+With P = l + R, the vector from the pivot to the cam centre, |P| = c, the point R lies beyond the line of a place by
 
     E = l cos(A) (|v| + tau) - tau c cos(psi - tau A),   E' = l cos(A) |v|' + s' (conj(n) P).imag
 
 where w is the fraction of a leg from its lower end, and a dash is the derivative by it.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphcam.errors import DesignError
-from graphcam.given.follower import Limits, Oscillating, swing_remedy
+from graphcam.errors import DesignError, check_number
+from graphcam.given.extreme_search import SmoothPieces
+from graphcam.given.follower import Limits, Oscillating, Translating, swing_remedy
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion
-from graphcam.mechanism.half_planes import LINE_NAMES, HalfPlane, Line, NearestPoint, nearest_point
-from graphcam.mechanism.leg_places import LegPlaces, OneLeg, sampled_legs
+from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion_law import Law
 from graphcam.words import say, sequence
+
+# --- lines that bound the region -------------------------------------------------------------------------------------
+
+Line = Literal["rise", "return", "rest"]
+LINE_NAMES: tuple[Line, ...] = get_args(Line)
+
+
+class HalfPlane(NamedTuple):
+    """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name.
+
+    touch : where on the motion the line touches, if it goes along with a place of it
+    """
+
+    name: Line | None
+    normal: complex
+    height: float
+    touch: Any = None
+
+    def excess(self, point: complex) -> float:
+        """How far the point lies outside [mm]."""
+        return self.height - (self.normal.conjugate() * point).real
+
+
+NearestPoint = tuple[complex, tuple[HalfPlane, ...]]
+"""A point, and the lines that hold it off."""
+
+
+def nearest_point(lines: Sequence[HalfPlane]) -> NearestPoint:
+    """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off.
+
+    One line after another is taken in.  The point stays if it keeps the next one too, else it moves onto that one.
+
+    Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete & Computational
+    Geometry 6 (1991), 423-434.
+
+    >>> point, kept = nearest_point([HalfPlane("rise", 1j, 3.0), HalfPlane("return", 1 + 0j, 4.0)])
+    >>> abs(point), [line.name for line in kept]
+    (5.0, ['return', 'rise'])
+    """
+    point, kept = 0j, ()
+    for k, line in enumerate(lines):
+        _, normal, height, _ = line
+        if normal.real * point.real + normal.imag * point.imag < height:
+            point, kept = _nearest_on_line(line, lines[:k])
+    return point, kept
+
+
+def _nearest_on_line(line: HalfPlane, others: Sequence[HalfPlane]) -> NearestPoint:
+    """The nearest point that keeps the others on one of the lines, whose points are (height + i t) normal."""
+    _, normal, height, _ = line
+    along, at, low, high = normal.conjugate(), None, -math.inf, math.inf
+    for other in others:
+        between = along * other.normal  # cosine and sine of the angle between the normals
+        if not between.imag:
+            continue
+        t = (other.height - height * between.real) / between.imag
+        if between.imag > 0 and t > low:
+            low, at = t, other if t > 0 else at
+        elif between.imag < 0 and t < high:
+            high, at = t, other if t < 0 else at
+    if at is None:
+        return height * normal, (line,)
+    return 1j * (at.height * normal - height * at.normal) / (along * at.normal).imag, (line, at)
+
+
+# --- places on the legs ----------------------------------------------------------------------------------------------
+
+PHASE_PLACES = 96
+"""Places on a whole phase, denser at the ends of its smooth pieces ..."""
+MIN_PIECE_PLACES = 16
+"""The minimum number of places on a piece, however short."""
+END_PLACES = np.logspace(-12, -4, 25)
+"""Places nearer the phase's ends, where a steep limit moves the extremes to."""
+
+
+class OneLeg(NamedTuple):
+    """A rise, or a return as if time ran backwards: s = low + lift f(w), |v| = lift/angle f'(w).
+
+    law : as seen from the lower end;  angle : rad;  low : s of the lower end
+    """
+
+    law: Law
+    lift: float
+    angle: float
+    low: float
+
+
+class LegPlaces(NamedTuple):
+    """The rises or the returns of a motion, with their places in one row.
+
+    first : where each leg's places begin, and the count of all;  w : fractions of the leg, from its lower end
+    s, v : s and |v|
+    """
+
+    legs: tuple[OneLeg, ...]
+    first: tuple[int, ...]
+    w: Floats
+    s: Floats
+    v: Floats
+
+    def leg_of(self, k: int) -> OneLeg:
+        """The leg that the k-th place belongs to."""
+        return self.legs[bisect_right(self.first, k) - 1]
+
+
+@lru_cache(maxsize=64)
+def legs(motion: Motion, direction: int) -> tuple[OneLeg, ...]:
+    """The rises (direction +1) or the returns (-1) of a motion.  They are kept, for it is sized again and again.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * pi - 1.0, "2-3")])
+    >>> [(leg.law.name, leg.lift, leg.low) for leg in legs(motion, -1)]
+    [('2-3', 30, 0.0)]
+    """
+    found: list[OneLeg] = []
+    for k, phase in enumerate(motion.phases):
+        if phase.direction == direction and not isinstance(phase, Dwell):
+            law, low = (phase.normalised, k) if direction > 0 else (phase.normalised.reversed, k + 1)
+            found.append(OneLeg(law, phase.lift, phase.angle, motion.levels.item(low)))
+    return tuple(found)
+
+
+@lru_cache(maxsize=64)
+def sampled_legs(motion: Motion, direction: int) -> LegPlaces:
+    """The rises or the returns of a motion, each with places on it.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * pi - 1.0, "2-3")])
+    >>> sampled_legs(motion, +1).s[[0, -1]].tolist()
+    [0.0, 30.0]
+    """
+    found = legs(motion, direction)
+    places = [_places(leg.law) for leg in found]
+    first = np.cumsum([0, *(part.shape[1] for part in places)]).tolist()
+    s = [leg.low + leg.lift * f for leg, (_, f, _) in zip(found, places, strict=True)]
+    v = [leg.lift / leg.angle * f1 for leg, (_, _, f1) in zip(found, places, strict=True)]
+    w = [w for w, _, _ in places]
+    return LegPlaces(found, tuple(first), *map(np.concatenate, (w, s, v)))
+
+
+@lru_cache(maxsize=64)
+def _places(law: Law) -> Floats:
+    """(3, n) places w, and f and f' there."""
+    pieces = pairwise((0.0, *law.breaks, 1.0))
+    inside = [
+        begin
+        + (end - begin)
+        * np.sin(np.linspace(0, np.pi / 2, max(MIN_PIECE_PLACES, round(PHASE_PLACES * (end - begin))))) ** 2
+        for begin, end in pieces
+    ]
+    w = np.unique(np.concatenate([END_PLACES, *inside, 1 - END_PLACES]))
+    return np.array([w, *law(w, derivatives=1)])
+
+
+# --- a translating follower ------------------------------------------------------------------------------------------
+
+GROWING_PLACES = 0.3 * 4.0 ** np.arange(60)
+"""Places, over a small one, between which a law grows by no more than some powers of four."""
+
+
+@dataclass(frozen=True)
+class MinimumRadius:
+    """The minimum permitted prime radius and its offset [mm]; ``active`` names the active lines, or the curvature."""
+
+    prime_radius: float
+    offset: float
+    active: tuple[Line | Literal["curvature"], ...]
+    place_name = "offset"
+
+    @property
+    def place(self) -> float:
+        """The offset: where the follower stands beside the cam [mm]."""
+        return self.offset
+
+
+def translating_minimum_radius(
+    motion: Motion, follower: Translating, sigma: int, limits: Limits, offset: float | None = None
+) -> MinimumRadius:
+    """The minimum prime radius for permitted pressure angles, at an offset [mm] if it is given; not the follower's own.
+
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, math.pi / 2, "cosine"), gc.Return(30, math.pi / 2, "cosine"),
+    ...     gc.Dwell(math.pi)])
+    >>> least = translating_minimum_radius(motion, gc.Translating(), +1, Limits())
+    >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
+    (22.5647, 11.2824, ('rise', 'rest'))
+    """
+    lines = _boundaries(motion, limits)
+    if offset is None:
+        centre, kept = nearest_point(lines)
+        return MinimumRadius(abs(centre), sigma * centre.real, _names(kept))
+    check_number("offset", offset, say("a finite length in mm"), say("leave it out to let it be found"))
+    across = sigma * offset
+    needed = [(line.height - line.normal.real * across) / line.normal.imag for line in lines]
+    s0 = max(0.0, *needed)
+    kept = [line for line, least in zip(lines, needed, strict=True) if least == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, _names(kept))
+
+
+def _boundaries(motion: Motion, limits: Limits) -> list[HalfPlane]:
+    """The lines that bound the region of e' + i s0, each on the side to which the velocity drives the angle first."""
+    driven: list[HalfPlane] = []
+    resting: list[HalfPlane] = []
+    limited: tuple[tuple[Line, int, float | None], ...] = ("rise", +1, limits.rise), ("return", -1, limits.return_)
+    for name, direction, limit in limited:
+        if limit is not None:
+            across, up = math.cos(limit), math.sin(limit)
+            height = across * _steepest_line(motion, direction, math.tan(limit))
+            driven.append(HalfPlane(name, complex(direction * across, up), height))
+            resting.append(HalfPlane("rest", complex(-direction * across, up), 0.0))
+    return [*driven, *resting] if limits.rest else driven
+
+
+def _names(lines: Sequence[HalfPlane]) -> tuple[Line, ...]:
+    found = {line.name for line in lines}
+    return tuple(name for name in LINE_NAMES if name in found)
+
+
+def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
+    """M or M': the maximum |v| - s * slope over all rises or all returns [mm/rad]."""
+    heights: list[float] = []
+    for law, lift, angle, low in legs(motion, direction):
+        heights.append(lift / angle * steepest_tangent(law, 1 / (slope * angle))[1] - slope * low)
+    return max(heights)
+
+
+def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
+    """The u at which f' - f/k is largest, k = cot(A)/F, and that value.
+
+    There the tangent at the angle A touches the s - v diagram, and it meets the axis of v at that height.
+
+    >>> import graphcam as gc
+    >>> u, height = steepest_tangent(gc.law("cosine"), 1.5)
+    >>> round(u, 12), round(height, 12)
+    (0.433439924624, 1.272441311934)
+    """
+    if closed_form := law.tangents[0]:
+        return closed_form(k)
+
+    def height(_: NDArray[np.intp], u: Floats) -> Floats:
+        """k f' - f, a pure number."""
+        f, f1 = law(u, derivatives=1)
+        return k * f1 - f
+
+    # Of a law that begins as u^n the place is (n - 1) k for small k, and the height as small as k^n.
+    growing = k * GROWING_PLACES
+    edges = np.unique([0.0, *law.breaks, *growing[growing < 1], 1.0])
+    _, inside = SmoothPieces(edges[:-1], edges[1:]).stationary(height, np.arange(edges.size - 1))
+    places = np.concatenate([edges, inside])
+    f, f1 = law(places, derivatives=1)
+    heights = f1 - f / k
+    best = np.argmax(heights)
+    return float(places[best]), float(heights[best])
+
+
+# --- an arm ----------------------------------------------------------------------------------------------------------
 
 LINE_ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
@@ -49,8 +319,6 @@ SQUARED_ERROR_STEP = 1e-6
 """A step of so small a part of the place leaves an error of its square, which changes a maximum value by no bit."""
 MAX_STEPS = 12
 """Steps after which the search begins anew."""
-
-
 SAME_PLACE = 1e-9
 """Fraction of a phase; at a greatest value a step this small no longer changes the value in double precision."""
 
@@ -219,8 +487,7 @@ def _least(motion: Motion, follower: Oscillating, sigma: int, limits: Limits) ->
         point, lines, beyond = _nearest_permitted(region, arc.point(0.0), arc.first)
         if beyond > KEPT_TOLERANCE * (arm + abs(point)):
             return None
-    names = [line.name for line in lines]
-    return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINE_NAMES if name in names]))
+    return ArmMinimumRadius(abs(point), distance, _names(lines))
 
 
 def _check_lift(motion: Motion, limits: Limits) -> None:
@@ -232,9 +499,6 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
         remedy = say("permit larger pressure angles or swing the arm less")
         remedy = swing_remedy(motion.lift, remedy)
         raise DesignError("lift", lift, say("less than {limit} for these limits", limit=limit), remedy)
-
-
-# --- the lines -------------------------------------------------------------------------------------------------------
 
 
 class _Region(NamedTuple):
@@ -283,9 +547,6 @@ def _rest_line(turned: float, tau: int, s: float, arm: float) -> HalfPlane:
     """The limit on the side that is not driven, in a position of rest."""
     height = -2 * tau * arm * math.sin(s / 2) * math.sin(turned - s / 2)
     return HalfPlane("rest", cmath.rect(tau, turned - s), height)
-
-
-# --- the least point -------------------------------------------------------------------------------------------------
 
 
 def _nearest_permitted(
