@@ -5,7 +5,7 @@ has a leading axis of that length, and one run of the arithmetic gives the scatt
 """
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,8 +15,13 @@ from graphcam.drafting.slips import PROTRACTOR_RADIUS, SLIPS
 from graphcam.errors import DesignError, check_number
 from graphcam.words import say
 
-Stream = np.random.Generator | np.random.RandomState
-"""Where a hand's errors come from."""
+
+class Stream(Protocol):
+    """Where a hand's errors come from, such as NumPy's generators."""
+
+    def standard_normal(self, size: tuple[int, ...], /) -> Floats:
+        """The next normal numbers of deviation one, in this shape."""
+        ...
 
 
 @dataclass(frozen=True)

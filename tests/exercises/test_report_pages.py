@@ -344,6 +344,7 @@ def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_b
         (
             "inversion-translating",
             {
+                "a_4_return_paper": 0,
                 "v_2_paper": 1,
                 "v_2_return_paper": 1,
                 "mu_s": 4,
@@ -358,6 +359,7 @@ def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_b
         (
             "inversion-arm",
             {
+                "a_4_return_paper": 0,
                 "v_2_paper": 1,
                 "v_2_return_paper": 1,
                 "s_max": 4,

@@ -138,6 +138,8 @@ def _plain(heading: str) -> str:
 MAX_FOLDER_BYTES = 180
 """Bytes of a folder's name; file systems take 255, and a suffix may follow."""
 _UNSAFE_PATTERN = re.compile(r'[\x00-\x1f\x7f-\x9f%/\\<>:"|?*\ud800-\udfff\u200e\u200f\u202a-\u202e\u2066-\u2069]')
+_UNSEEN = "\u00a0\u200b\u200e\u200f\u2060\ufeff"
+"""What programs leave at the ends of an id and nobody sees."""
 _CUT_PATTERN = re.compile(r"%~[0-9a-f]{24}$")
 _DEVICE_PATTERN = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?$")
 
@@ -269,5 +271,18 @@ def _students(rows: list[tuple[int, list[str]]]) -> list[tuple[int, Student]]:
     columns = roster_columns([row for _, row in rows])
     listed = [(line, row) for line, row in rows[bool(columns.heading) :] if len(row) > columns.id]
     return [
-        (line, Student(row[columns.id], columns.name(row), cell_at(row, columns.email).strip())) for line, row in listed
+        (
+            line,
+            Student(row[columns.id].strip(_UNSEEN), _printed(columns.name(row)), cell_at(row, columns.email).strip()),
+        )
+        for line, row in listed
     ]
+
+
+def _printed(name: str) -> str:
+    """A name as it is printed: one plain space where it has spaces of any kind, and no marks that are not seen.
+
+    >>> _printed("Eva\\u00a0 Müller\\u200e\\n")
+    'Eva Müller'
+    """
+    return " ".join("".join(letter for letter in name if unicodedata.category(letter) != "Cf").split())

@@ -9,7 +9,8 @@ the same part, and its angles stay.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from threading import Lock
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,19 +70,54 @@ HANDS = {
 """The hands that have a name: of practised draughtsmen with sharp pencils, of a course, and of its first weeks."""
 
 
+KEPT_STREAM_COUNT = 16
+"""Streams whose numbers are kept: those of all constructions, by one seed."""
+
+
 @dataclass(frozen=True)
 class SteadyPencil(Pencil):
     """A :class:`~graphcam.Pencil` with the stream of random numbers that NumPy promises never to change.
 
     Marks must not change with the version of a library, and a variant's parameters rest on them too.
 
-    >>> float(SteadyPencil(line=1.0, seed=1).stream("inversion").standard_normal(1)[0])
+    >>> float(SteadyPencil(line=1.0, seed=1).stream("inversion").standard_normal((1,))[0])
     0.3506619882060858
     """
 
     def stream(self, construction: str) -> Stream:
         """A stream of random numbers as of any pencil, but of the frozen generator."""
-        return np.random.RandomState([self.seed, *construction.encode()])
+        return _RecalledNormals(self.seed, construction)
+
+
+class _RecalledNormals:
+    """The numbers of a frozen stream from its start: most were drawn before, for another variant or mistake."""
+
+    def __init__(self, seed: int, construction: str) -> None:
+        self._source, self._place = _normals_of(seed, construction), 0
+
+    def standard_normal(self, size: tuple[int, ...], /) -> Floats:
+        """The next numbers of the stream, in this shape."""
+        start, self._place = self._place, self._place + math.prod(size)
+        return self._source.first(self._place)[start:].reshape(size)
+
+
+class _KeptNormals:
+    """The numbers of a frozen stream that were asked for so far."""
+
+    def __init__(self, seed: int, construction: str) -> None:
+        self._random = np.random.RandomState([seed, *construction.encode()])
+        self._drawn, self._lock = np.empty(0), Lock()
+
+    def first(self, count: int) -> Floats:
+        """The first numbers (count,); drawn in parts they are the same as at once."""
+        with self._lock:
+            if (missing := count - self._drawn.size) > 0:
+                more = self._random.standard_normal(max(missing, self._drawn.size // 4))
+                self._drawn = np.append(self._drawn, more)
+            return self._drawn[:count]
+
+
+_normals_of = lru_cache(maxsize=KEPT_STREAM_COUNT)(_KeptNormals)
 
 
 @dataclass(frozen=True)

@@ -31,10 +31,11 @@ PROFILE_CONSTRUCTIONS = ("inversion", "working_profile")
 
 def answers_of(exercise: Exercise, chain: Chain) -> Drawn:
     """What the hands that drew this answer: many hands round as asked, a perfect one without samples does not."""
-    return [_perfect_answer(chain, asked) for asked in exercise.answers]
+    return [answer_of(chain, asked) for asked in exercise.answers]
 
 
-def _perfect_answer(chain: Chain, asked: AskedAnswer) -> NDArray[Any]:
+def answer_of(chain: Chain, asked: AskedAnswer) -> NDArray[Any]:
+    """What the hands that drew this give for one answer."""
     answer = np.asarray(curve_of(chain, asked) if asked.kind == "curve" else drawn_answer(chain, asked))
     pencil = chain.pencil
     if pencil.samples is None:

@@ -34,7 +34,7 @@ from graphcam.exercises.key.mistake_separation import (
 )
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.refused_draws import RefusalReason, Refusals, RefusedDraw, of_pairs
-from graphcam.exercises.key.unlisted_mistakes import unlisted_outcomes
+from graphcam.exercises.key.unlisted_mistakes import none_keeps_all_marks, unlisted_outcomes
 
 HAND_COUNT = 2000
 """Careful hands behind the tolerances."""
@@ -81,7 +81,10 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
     by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
     if names := guessed_radii(exercise, keys, tolerances, variant.task.cam.prime_radius):
         return RefusedDraw(tuple(RefusalReason("copied", name, "cam.prime_radius") for name in names), drawings={})
-    if (outcomes := unlisted_outcomes(exercise, drawn, keys, bound)).too_many:
+    if (
+        not none_keeps_all_marks(exercise, drawn, keys, bound)
+        and (outcomes := unlisted_outcomes(exercise, drawn, keys, bound)).too_many
+    ):
         reasons = tuple(RefusalReason("unlisted", name, CAREFUL_WORK) for name in outcomes.kept)
         wrongly = {name: misconception(name).change(drawn.right) for name in outcomes.kept}
         return RefusedDraw(reasons, reasons, chains | wrongly)

@@ -2,16 +2,17 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import repeat
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from graphcam.constructions.chain import Chain
 from graphcam.errors import GraphcamError
-from graphcam.exercises.definition.catalogue import LAW_ARGUMENT, READING_ARGUMENT
+from graphcam.exercises.definition.catalogue import LAW_ARGUMENT, READING_ARGUMENT, Change
 from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
-from graphcam.exercises.key.answer_scatter import Drawn, answers_of
+from graphcam.exercises.key.answer_scatter import Drawn, answer_of, answers_of
 from graphcam.exercises.key.expected_answers import Expected
 from graphcam.exercises.key.mistake_separation import PerfectHands
 from graphcam.given.laws import DWELL_TO_DWELL_LAWS
@@ -102,12 +103,37 @@ def unlisted_outcomes(
             near.append(name)
             continue
         shown.append(name)
-        if all(
-            abs(key.deviation(_handed_in(asked, answer), asked.kind)) <= bound
-            for asked, key, answer in zip(exercise.answers, keys, answers, strict=True)
-        ):
+        if all(map(_is_right, exercise.answers, keys, answers, repeat(bound))):
             kept.append(name)
     return UnlistedOutcomes(tuple(shown), tuple(kept), tuple(near))
+
+
+def none_keeps_all_marks(exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float) -> bool:
+    """Whether every mistake not listed loses a mark or changes no answer: each is drawn to its first wrong answer."""
+    return not any(
+        _keeps_all_marks(exercise, drawn, keys, bound, misconception(name).change) for name in unlisted_names(exercise)
+    )
+
+
+def _keeps_all_marks(
+    exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float, change: Change
+) -> bool:
+    is_another = False
+    try:
+        chain = change(drawn.right)
+        for asked, right, key, length in zip(exercise.answers, drawn.answers, keys, drawn.lengths, strict=True):
+            answer = answer_of(chain, asked)
+            if not _is_right(asked, key, answer, bound):
+                return False
+            is_another = is_another or _is_another(asked, right, answer, length)
+    except GraphcamError:
+        return False
+    return is_another
+
+
+def _is_right(asked: AskedAnswer, key: Expected, answer: Any, bound: float) -> bool:
+    given = round(float(answer), asked.decimals) if asked.kind == "number" and np.isfinite(answer) else answer
+    return abs(key.deviation(given, asked.kind)) <= bound
 
 
 def _is_another(asked: AskedAnswer, right: Any, wrong: Any, length: float) -> bool:
@@ -122,7 +148,3 @@ def _moved_on_paper(asked: AskedAnswer, right: Any, wrong: Any, length: float) -
     if asked.kind == "number":
         return float(abs(wrong - right) / length) if math.isfinite(length) else 0.0
     return float(Expected(right, 1.0).distances(wrong, asked.kind).max())
-
-
-def _handed_in(asked: AskedAnswer, answer: Any) -> Any:
-    return round(float(answer), asked.decimals) if asked.kind == "number" else answer

@@ -78,11 +78,11 @@ def plain_signs(text: str) -> str:
 
     >>> plain_signs("–37.1\\u00a0mm"), plain_signs("３７.１")
     ('-37.1 mm', '37.1')
+    >>> plain_signs("- 20.1")
+    '-20.1'
     """
-    if text.isascii():
-        return text
-    plain = unicodedata.normalize("NFKC", text.translate(_TYPED_SIGNS))
-    return re.sub(r"^(\s*)-\s+(?=[\d.,])", r"\1-", plain)
+    plain = text if text.isascii() else unicodedata.normalize("NFKC", text.translate(_TYPED_SIGNS))
+    return re.sub(r"^(\s*)-\s+(?=[\d.,])", r"\1-", plain) if "-" in plain else plain
 
 
 def decimal(name: str, text: str) -> float:

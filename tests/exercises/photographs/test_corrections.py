@@ -81,7 +81,7 @@ PITCH = [*ANNA, "answers", "pitch"]
         (["students"], [], "students is a list, but must be a table"),
         (["students", "Zoe"], {}, "students is 'Zoe', but must be ids of this course"),
         ([*ANNA, "reviewed"], "yes", "students.Anna.reviewed"),
-        ([*ANNA, "answers", "pitsch"], {}, "one of the answers v_2_paper"),
+        ([*ANNA, "answers", "pitsch"], {}, "one of the answers a_4_return_paper"),
         ([*PITCH, "verdict"], "right", "students.Anna.answers.pitch.verdict is 'right'"),
         ([*PITCH, "verdict"], "confirmed", "students.Anna.answers.pitch.value"),
         ([*PITCH, "photo"], 3, "students.Anna.answers.pitch.photo"),
