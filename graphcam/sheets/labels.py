@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -37,8 +38,14 @@ TEXT_MARGIN = 0.45
 """The free margin around a text [mm]."""
 TEXT_COST, BOLD_LINE_COST, MEASURE_COST, THIN_LINE_COST, HATCH_COST = 2000.0, 200.0, 80.0, 2.0, 0.4
 """Costs of a cell with another text, a bold line, a dimension, curve or axis, construction lines, or hatching."""
-LEADER_CROSSING_COST = 60.0
+LEADER_CROSSING_COST = 250.0
 """The cost of a leader that crosses another one."""
+ORDERS_OF_CROSSED: tuple[Callable[[list[int]], Sequence[int]], ...] = (
+    lambda labels: labels,
+    lambda labels: labels[::-1],
+    lambda labels: labels[::2] + labels[1::2],
+)
+"""The orders in which labels with crossing leaders choose once more."""
 BARRED_COST = 1000.0
 """The cost of a place in another view."""
 ROLE_COSTS: Mapping[str, float] = {
@@ -227,6 +234,17 @@ class Occupancy:
     def _cost(self, where: NDArray[np.intp]) -> Floats:
         return self.cells.reshape(-1).take(where).sum(axis=-1, dtype=np.float64)
 
+    def copy(self) -> Occupancy:
+        """A copy that can be taken otherwise."""
+        copied = copy(self)
+        copied.cells, copied.leaders = self.cells.copy(), list(self.leaders)
+        return copied
+
+    def take_label(self, label: Sequence[Entity]) -> None:
+        """Occupy the cells of a text and of its leader."""
+        self.take_entities(label)
+        self.leaders += [each for each in label if isinstance(each, Strokes)]
+
     def take_entities(self, entities: Iterable[Entity]) -> None:
         """Occupy the cells of lines, circles, arcs and texts."""
         lines: dict[float, list[Entity]] = {}
@@ -263,17 +281,43 @@ def _shares(length: float) -> Floats:
 def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside: Box) -> list[int]:
     """The index of the place of every label, kept off what is drawn and inside a box.
 
-    Texts of dimensions choose first: they belong to their lines.
+    Texts of dimensions choose first: they belong to their lines.  Those whose leaders cross choose once more, after all
+    others and in other orders, as long as that leaves fewer crossings.
     """
-    paper = Occupancy(inside)
-    paper.take_entities(drawn)
-    chosen = [0] * len(writings)
-    for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
-        chosen[k] = _choose(writings[k], paper)
-        text, *leader = placed_label(writings[k], chosen[k])
-        paper.take_entities([text, *leader])
-        paper.leaders += [each for each in leader if isinstance(each, Strokes)]
-    return chosen
+    lines = Occupancy(inside)
+    lines.take_entities(drawn)
+    chosen = _in_turn(writings, sorted(range(len(writings)), key=lambda k: not writings[k].bound), {}, lines)
+    crossed = _labels_crossed(writings, chosen)
+    for reordered in ORDERS_OF_CROSSED:
+        if not crossed:
+            break
+        others = {k: place for k, place in chosen.items() if k not in crossed}
+        tried = _in_turn(writings, reordered(list(crossed)), others, lines)
+        if sum((left := _labels_crossed(writings, tried)).values()) < sum(crossed.values()):
+            chosen, crossed = tried, left
+    return [chosen[k] for k in range(len(writings))]
+
+
+def _in_turn(
+    writings: Sequence[LabelText], order: Iterable[int], chosen: Mapping[int, int], lines: Occupancy
+) -> dict[int, int]:
+    """The places of labels that choose one after the other, beside those that have ``chosen`` and what is drawn."""
+    paper, found = lines.copy(), dict[int, int]()
+    for k, place in chosen.items():
+        paper.take_label(placed_label(writings[k], place))
+    for k in order:
+        found[k] = _choose(writings[k], paper)
+        paper.take_label(placed_label(writings[k], found[k]))
+    return {**chosen, **found}
+
+
+def _labels_crossed(writings: Sequence[LabelText], chosen: Mapping[int, int]) -> dict[int, int]:
+    """The labels whose leaders cross others, in the order of choice, and how many each crosses."""
+    led = [k for k, place in chosen.items() if np.isfinite(writings[k].anchors[place])]
+    leaders = [placed_label(writings[k], chosen[k])[1] for k in led]
+    starts, ends = linework(leaders)
+    counts = _crossed_leaders(starts, ends, starts, ends).astype(int).tolist()
+    return {k: count for k, count in zip(led, counts, strict=True) if count}
 
 
 def _choose(writing: LabelText, paper: Occupancy) -> int:
