@@ -95,14 +95,14 @@ def board_of(task: Task) -> Board:
     divided = partial(divide, motion, divisions, at_corners=at_corners)
     finer = {} if drawing.divisions else finer_parts(motion, divisions, lambda finer: divided(finer=finer))
     mu_phi = mu_alpha = Scale(math.radians(room.degrees_per_mm), "rad")
-    if not drawing.whole_turn and task.motion.phases:
+    if not drawing.whole_turn:
         mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest_axis(drawing))
     heights, given = DrawnHeights(motion, mu_phi), (drawing.ordinate, drawing.poles)
     most = page_room(task, heights, follower)
     if mu_phi != mu_alpha:
         # The displacement is no higher than at the usual scale, so that the combined diagram keeps to its room.
         usual, page = DrawnHeights(motion, mu_alpha), most
-        most = replace(page, s=min(page.s, usual.displacement(*usual.choose(room, page, *given))))
+        most = replace(page, s=min(page.s, usual.displacement(*usual.highest(room, page, *given))))
         if any(given) and not heights.fit(page, *heights.choose(room, most, *given)):
             # Given sizes may suit the whole turn alone.
             mu_phi, heights, most = mu_alpha, usual, page_room(task, usual, follower)
