@@ -54,16 +54,18 @@ def narrowest_part(stations: Stations) -> float:
     return float(np.diff(stations.phi)[stations.left][~stations.blows].min(initial=math.inf))
 
 
-def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: float) -> Scale:
+def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: float, *, breaks: bool = True) -> Scale:
     """The scale of the cam angle [rad/mm]: the usual one, or a finer one with broken dwells where parts were narrow.
 
     usual : degrees/mm, for a whole turn;  longest : that the axis and its usual pole may be on a page [mm of paper]
+    breaks : whether dwells may be broken
     """
     least = narrowest_part(stations)
     whole = Scale(math.radians(usual), "rad")
     if whole.paper(least) >= MIN_PART_WIDTH * (1 - SAME_WIDTH):
         return whole
-    finer = [broken_axis(motion, math.radians(each)) for each in (usual, *FINER_AXES) if each <= usual]
+    scales = [math.radians(each) for each in (usual, *FINER_AXES) if each <= usual]
+    finer = [broken_axis(motion, each) if breaks else Scale(each, "rad") for each in scales]
     lengths = [
         (axis, float(axis.paper(FULL_TURN)), min(MIN_POLE, math.radians(DEFAULT_POLE) / axis.per_mm)) for axis in finer
     ]

@@ -96,7 +96,9 @@ def board_of(task: Task) -> Board:
     finer = {} if drawing.divisions else finer_parts(motion, divisions, lambda finer: divided(finer=finer))
     mu_phi = mu_alpha = Scale(math.radians(room.degrees_per_mm), "rad")
     if not drawing.whole_turn:
-        mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest_axis(drawing))
+        # The diagrams of what was measured show the whole turn.
+        breaks, longest = bool(task.motion.phases), longest_axis(drawing)
+        mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest, breaks=breaks)
     heights, given = DrawnHeights(motion, mu_phi), (drawing.ordinate, drawing.poles)
     most = page_room(task, heights, follower)
     if mu_phi != mu_alpha:

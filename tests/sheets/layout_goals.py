@@ -23,6 +23,7 @@ from random_sheets import solved
 import graphcam as gc
 from graphcam.constructions.axes import broken_axis, part_names
 from graphcam.drafting.marks import Role
+from graphcam.drafting.scale import Scale
 from graphcam.given.motion import FULL_TURN
 from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.fewer_sheets import larger_paper
@@ -115,7 +116,9 @@ def _has_room_for_wide_parts(solution: AnySolution) -> bool:
     if not isinstance(solution, Solution):
         return True
     board = solution.chain.board
-    axis = broken_axis(board.motion, narrowest_part(board.stations) / MIN_PART_WIDTH)
+    per_mm = narrowest_part(board.stations) / MIN_PART_WIDTH
+    # The diagrams of what was measured show the whole turn.
+    axis = broken_axis(board.motion, per_mm) if solution.task.motion.phases else Scale(per_mm, "rad")
     return float(axis.paper(FULL_TURN)) + MIN_POLE <= longest_axis(solution.task.drawing)
 
 
