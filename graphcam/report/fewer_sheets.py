@@ -105,8 +105,8 @@ def larger_paper(solution: AnySolution) -> Iterator[Caption]:
     >>> task = gc.builtin_task("sizing")
     >>> for hint in larger_paper(gc.solve(replace(task, drawing=task.drawing.on("A4")))):
     ...     print(hint)
-    The narrowest parts are 2.9 mm wide on A4, which is little for a hand; on A3 they are 4.4 mm wide.
-    A pole is 20 mm long on A4, which is short for a straightedge; on A3 no pole is shorter than 50 mm.
+    The narrowest parts are 3.5 mm wide on A4, which is little for a hand; on A3 they are 5.8 mm wide.
+    A pole is 25 mm long on A4, which is short for a straightedge; on A3 no pole is shorter than 40 mm.
     """
     if not isinstance(solution, Solution):
         return

@@ -54,11 +54,14 @@ def narrowest_part(stations: Stations) -> float:
     return float(np.diff(stations.phi)[stations.left][~stations.blows].min(initial=math.inf))
 
 
-def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: float, *, breaks: bool = True) -> Scale:
+def cam_angle_scale(
+    motion: Motion, stations: Stations, usual: float, longest: float, *, breaks: bool = True, long: bool = True
+) -> Scale:
     """The scale of the cam angle [rad/mm]: the usual one, or a finer one with broken dwells where parts were narrow.
 
     usual : degrees/mm, for a whole turn;  longest : that the axis and its usual pole may be on a page [mm of paper]
     breaks : whether dwells may be broken
+    long : whether the axis is rather longer than usual than its parts narrower than 5 mm
     """
     least = narrowest_part(stations)
     whole = Scale(math.radians(usual), "rad")
@@ -71,7 +74,9 @@ def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: f
     ]
     usual_room = [axis for axis, length, _ in lengths if length <= whole.paper(FULL_TURN) * (1 + SAME_WIDTH)] or [whole]
     page = [axis for axis, length, pole in lengths if length + pole <= longest] or usual_room
-    for axes, width in ((usual_room, MIN_PART_WIDTH), (usual_room, NARROW_PART_WIDTH), (page, NARROW_PART_WIDTH)):
+    narrow, longer = (usual_room, NARROW_PART_WIDTH), (page, MIN_PART_WIDTH)
+    between = (longer, narrow) if long else (narrow, longer)
+    for axes, width in ((usual_room, MIN_PART_WIDTH), *between, (page, NARROW_PART_WIDTH)):
         if wide := [axis for axis in axes if least / axis.per_mm >= width * (1 - SAME_WIDTH)]:
             return wide[0 if width == MIN_PART_WIDTH or axes is page else -1]
     # Where no axis has wide parts, those of the finest are the widest.
@@ -114,7 +119,7 @@ class DrawnHeights:
     >>> room, page = DiagramRoom(2.0, a=90.0, v=75.0, s=40.0), DiagramRoom(2.0, a=162.0, v=162.0, s=162.0)
     >>> mu_phi = Scale(math.radians(2.0), "rad")
     >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), mu_phi).choose(room, page)
-    (40.0, (20.0, 40.0))
+    (40.0, (30.0, 40.0))
     >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), mu_phi).choose(room, page)
     (1.5, (12.0, 15.0))
     """

@@ -29,6 +29,7 @@ from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
+from graphcam.sheets.page_filling import ONE_PAGE
 from graphcam.sheets.page_space import free_rooms
 from graphcam.solving.diagram_sizes import (
     DEFAULT_POLE,
@@ -98,7 +99,9 @@ def board_of(task: Task) -> Board:
     if not drawing.whole_turn:
         # The diagrams of what was measured show the whole turn.
         breaks, longest = bool(task.motion.phases), longest_axis(drawing)
-        mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest, breaks=breaks)
+        # A longer axis would take the room of other views on a sheet that shows all of them.
+        long, usual = drawing.format not in ONE_PAGE, room.degrees_per_mm
+        mu_phi = cam_angle_scale(motion, divided(finer=finer), usual, longest, breaks=breaks, long=long)
     heights, given = DrawnHeights(motion, mu_phi), (drawing.ordinate, drawing.poles)
     most = page_room(task, heights, follower)
     if mu_phi != mu_alpha:
