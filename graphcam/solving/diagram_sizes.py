@@ -121,7 +121,7 @@ class DrawnHeights:
     >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), mu_phi).choose(room, page)
     (40.0, (30.0, 40.0))
     >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), mu_phi).choose(room, page)
-    (1.5, (12.0, 15.0))
+    (1.5, (20.0, 20.0))
     """
 
     motion: Motion
