@@ -289,7 +289,7 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
     for pages in count(min_pages(sheet, views)):
         tried = settings if pages > 1 else settings[::2]
         if found := _filled(cut_views, cut_views.cuts(pages), tried):
-            return [page.centred() for page in found]
+            return [page.centred().spread() for page in found]
     raise AssertionError("pages without end take everything")
 
 
