@@ -219,7 +219,10 @@ class Occupancy:
 
     def take(self, points: Points, cost: float) -> None:
         """Set the cost of the points' cells, unless it is higher already."""
-        cells, where = self.cells.reshape(-1), self._cell_numbers(points.real, points.imag)
+        self._raise_cost(self._cell_numbers(points.real, points.imag), cost)
+
+    def _raise_cost(self, where: NDArray[np.intp], cost: float) -> None:
+        cells = self.cells.reshape(-1)
         cells[where] = np.maximum(cells[where], cost)
 
     def cost(self, points: Points) -> Floats:
@@ -240,22 +243,43 @@ class Occupancy:
         copied.cells, copied.leaders = self.cells.copy(), list(self.leaders)
         return copied
 
-    def take_label(self, label: Sequence[Entity]) -> None:
-        """Occupy the cells of a text and of its leader."""
-        self.take_entities(label)
-        self.leaders += [each for each in label if isinstance(each, Strokes)]
+    def footprint(self, entities: Sequence[Entity]) -> Footprint:
+        """What a label's text and leader take."""
+        leaders = [each for each in entities if isinstance(each, Strokes)]
+        return Footprint(list(self._cells_of(entities)), leaders)
+
+    def put(self, label: Footprint) -> None:
+        """Occupy the cells of a label."""
+        for where, cost in label.cells:
+            self._raise_cost(where, cost)
+        self.leaders += label.leaders
 
     def take_entities(self, entities: Iterable[Entity]) -> None:
         """Occupy the cells of lines, circles, arcs and texts."""
+        for where, cost in self._cells_of(entities):
+            self._raise_cost(where, cost)
+
+    def _cells_of(self, entities: Iterable[Entity]) -> Iterator[tuple[NDArray[np.intp], float]]:
+        """The cells of entities, and what a letter in them costs."""
         lines: dict[float, list[Entity]] = {}
         for entity in entities:
             if isinstance(entity, Text):
                 a, b, _, d = corners(entity).tolist()
-                self.take(_grid(a, b - a, d - a), TEXT_COST)
+                points = _grid(a, b - a, d - a)
+                yield self._cell_numbers(points.real, points.imag), TEXT_COST
             else:
                 lines.setdefault(_line_cost(entity.role), []).append(entity)
         for cost, alike in lines.items():
-            self.take(sampled(*linework(alike), 0.7 * CELL_SIDE), cost)
+            points = sampled(*linework(alike), 0.7 * CELL_SIDE)
+            yield self._cell_numbers(points.real, points.imag), cost
+
+
+@dataclass(frozen=True, eq=False)
+class Footprint:
+    """What a label takes of the paper: cells with what a letter in them costs, and leaders."""
+
+    cells: list[tuple[NDArray[np.intp], float]]
+    leaders: list[Strokes]
 
 
 def _cell_numbers(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
@@ -284,31 +308,40 @@ def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside
     Texts of dimensions choose first: they belong to their lines.  Those whose leaders cross choose once more, after all
     others and in other orders, as long as that leaves fewer crossings.
     """
-    lines = Occupancy(inside)
-    lines.take_entities(drawn)
-    chosen = _in_turn(writings, sorted(range(len(writings)), key=lambda k: not writings[k].bound), {}, lines)
+    paper = Occupancy(inside)
+    paper.take_entities(drawn)
+    lines, chosen = paper.copy(), dict[int, int]()
+    footprints = dict[int, Footprint]()
+    order = sorted(range(len(writings)), key=lambda k: not writings[k].bound)
+    _choose_in_turn(writings, order, paper, chosen, footprints)
     crossed = _labels_crossed(writings, chosen)
+    others: Occupancy | None = None
     for reordered in ORDERS_OF_CROSSED:
         if not crossed:
             break
-        others = {k: place for k, place in chosen.items() if k not in crossed}
-        tried = _in_turn(writings, reordered(list(crossed)), others, lines)
+        if others is None:
+            others = lines.copy()
+            for k in chosen.keys() - crossed.keys():
+                others.put(footprints[k])
+        tried, taken = dict(chosen), dict(footprints)
+        _choose_in_turn(writings, reordered(list(crossed)), others.copy(), tried, taken)
         if sum((left := _labels_crossed(writings, tried)).values()) < sum(crossed.values()):
-            chosen, crossed = tried, left
+            chosen, crossed, footprints, others = tried, left, taken, None
     return [chosen[k] for k in range(len(writings))]
 
 
-def _in_turn(
-    writings: Sequence[LabelText], order: Iterable[int], chosen: Mapping[int, int], lines: Occupancy
-) -> dict[int, int]:
-    """The places of labels that choose one after the other, beside those that have ``chosen`` and what is drawn."""
-    paper, found = lines.copy(), dict[int, int]()
-    for k, place in chosen.items():
-        paper.take_label(placed_label(writings[k], place))
+def _choose_in_turn(
+    writings: Sequence[LabelText],
+    order: Iterable[int],
+    paper: Occupancy,
+    chosen: dict[int, int],
+    footprints: dict[int, Footprint],
+) -> None:
+    """Let labels choose one after the other, beside all that is on the paper; note their places and what they take."""
     for k in order:
-        found[k] = _choose(writings[k], paper)
-        paper.take_label(placed_label(writings[k], found[k]))
-    return {**chosen, **found}
+        chosen[k] = _choose(writings[k], paper)
+        footprints[k] = paper.footprint(placed_label(writings[k], chosen[k]))
+        paper.put(footprints[k])
 
 
 def _labels_crossed(writings: Sequence[LabelText], chosen: Mapping[int, int]) -> dict[int, int]:
