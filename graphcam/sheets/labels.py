@@ -411,7 +411,7 @@ def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:
     inside &= (centres.imag + up > bottom) & (centres.imag - up < top)
     if led.any():
         left, bottom, right, top = edges[..., None]
-        way = anchors[led][:, None] + LEADER_FRACTIONS * (centres[led] - anchors[led])[:, None]
+        way = anchors[led][:, None] + LEADER_FRACTIONS[::3] * (centres[led] - anchors[led])[:, None]
         within = (way.real > left) & (way.real < right) & (way.imag > bottom) & (way.imag < top)
         # Where it begins in another view already, a leader leads out of it.
         inside[:, led] |= (within & ~within[..., :1]).any(axis=-1)

@@ -19,6 +19,10 @@ FRAME_MARGIN = 4.0
 BOX_MARGIN = FRAME_MARGIN - LABEL_MARGIN
 """The free margin along the frame of boxes with air of their own [mm]."""
 
+MAX_EMPTY_SHARE = 0.12
+"""The maximum empty rectangle that is left as it is, as a part of the frame."""
+MAX_SPREAD = 5
+"""More views and tables than this stand close enough."""
 SPREAD_ROUNDS, SPREAD_SHARES, SPREAD_GAIN = 2, (0.5, 0.25, 0.75), 5e-3
 """How often all that stands on a page is moved apart, to which parts of its free way, and the gain that is worth it."""
 
@@ -41,6 +45,24 @@ def _rooms_between(inside: Box, taken: Sequence[Box]) -> Iterator[tuple[float, f
     """Widths and heights [mm] of the highest free boxes between the sides of boxes."""
     sides = product([inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)])
     yield from ((right - left, _highest(inside, left, right, taken)) for left, right in sides if right > left)
+
+
+def _largest_area(inside: Box, taken: Sequence[Box]) -> float:
+    """The area of the largest free box between boxes [mm²]."""
+    lefts, rights = [inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)]
+    largest = 0.0
+    for wide, left in sorted(((right - left, left) for left, right in product(lefts, rights)), reverse=True):
+        # The others are narrower.
+        if wide * inside.height <= largest:
+            break
+        largest = max(largest, wide * _highest(inside, left, left + wide, taken))
+    return largest
+
+
+@cache
+def _fields(sheet: Format) -> tuple[Box, ...]:
+    """The boxes of a sheet's own fields."""
+    return tuple(taken_boxes(sheet, 0.0))
 
 
 def _highest(inside: Box, left: float, right: float, kept: Sequence[Box]) -> float:
@@ -169,8 +191,8 @@ class OpenPage:
         """The share of the frame's inside that the largest rectangle without views, tables and fields takes."""
         views = [panel.box.moved(origin) for panel, origin in self.views.values()]
         blocks = [block.box.moved(at) for block, at in self.blocks]
-        rooms = _rooms_between(self.sheet.content, [*views, *blocks, *taken_boxes(self.sheet, 0.0)])
-        return max((wide * high for wide, high in rooms), default=0.0) / self.sheet.content.area
+        inside = self.sheet.content
+        return _largest_area(inside, [*views, *blocks, *_fields(self.sheet)]) / inside.area
 
     def centred(self) -> OpenPage:
         """The page with all that stands on it moved together, so that what is left empty lies around it."""
@@ -181,9 +203,17 @@ class OpenPage:
         blocks = [(block, at + by) for block, at in self.blocks]
         return OpenPage(self.sheet, self.room, [], [box.moved(by) for box in self.taken], views, blocks)
 
+    @property
+    def final_empty_share(self) -> float:
+        """The share of the frame's inside that the largest empty rectangle takes in the end; small ones as they are."""
+        share = self.empty_share
+        return share if share <= MAX_EMPTY_SHARE else self.spread().empty_share
+
     def spread(self) -> OpenPage:
-        """The page with what stands on it moved apart, as long as that makes the largest empty rectangle smaller."""
-        page, fixed = self, taken_boxes(self.sheet, 0.0)
+        """The page with all that stands on it in the middle, moved apart where a large empty rectangle becomes smaller."""
+        page, fixed = self.centred(), _fields(self.sheet)
+        if len(self.views) + len(self.blocks) > MAX_SPREAD or page.empty_share <= MAX_EMPTY_SHARE:
+            return page
         inside = self.sheet.content.grown(-BOX_MARGIN)
         for _, group in product(range(SPREAD_ROUNDS), range(len(self._groups()))):
             groups = page._groups()
@@ -269,7 +299,7 @@ def _blank_room(sheet: Format) -> Room:
 @cache
 def kept_area(sheet: Format) -> float:
     """The area of the boxes inside the frame that every sheet needs [mm²]."""
-    return sum(box.area for box in taken_boxes(sheet, 0.0))
+    return sum(box.area for box in _fields(sheet))
 
 
 def fits_on_sheet(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
