@@ -210,7 +210,7 @@ class OpenPage:
         return share if share <= MAX_EMPTY_SHARE else self.spread().empty_share
 
     def spread(self) -> OpenPage:
-        """The page with all that stands on it in the middle, moved apart where a large empty rectangle becomes smaller."""
+        """The page with all that stands on it in the middle, and moved apart where that leaves less room empty."""
         page, fixed = self.centred(), _fields(self.sheet)
         if len(self.views) + len(self.blocks) > MAX_SPREAD or page.empty_share <= MAX_EMPTY_SHARE:
             return page
