@@ -148,7 +148,7 @@ def _page(sheet: Format, views: Sequence[Panel], way: Way, gap: float) -> OpenPa
     largest = max(alone, key=lambda panel: panel.box.area, default=None)
     for panels in way.runs:
         run = _standing_run(sheet, panels, gap, way)
-        preference = prefer_top_left if len(way.runs) == 1 else way.preference or _preferred(sheet, panels, largest)
+        preference = way.preference or _preferred(sheet, panels, largest)
         if run is None or (by := page.find(run.boxes, preference)) is None:
             return None
         page.put_views(run, by)
