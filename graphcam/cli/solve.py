@@ -243,12 +243,12 @@ def _print_hint(solution: AnySolution, folder: Path) -> None:
     """Print the sizes of the diagrams with which fewer sheets would do, and a format on which parts are wider."""
     # Loaded already, by what wrote the files.
     from graphcam.report.documents import contents_of
-    from graphcam.report.fewer_sheets import fewer_sheets, wider_parts
+    from graphcam.report.fewer_sheets import fewer_sheets, larger_paper
     from graphcam.report.output_folder import written_files
 
     pages = sum(file_kind(name) == "sheet" and name.endswith(".svg") for name in written_files(folder))
     fewer = fewer_sheets(contents_of(solution), pages) if pages > 1 else None
-    for hint in filter(None, (fewer, wider_parts(solution))):
+    for hint in filter(None, (fewer, *larger_paper(solution))):
         echo("", err=True)
         echo(hint, err=True)
 

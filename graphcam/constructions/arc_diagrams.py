@@ -13,12 +13,12 @@ from graphcam.constructions.arc_outline import unreadable_step
 from graphcam.constructions.arc_plan import worked_station
 from graphcam.constructions.arc_profile import RollerOnArcs
 from graphcam.constructions.axes import (
-    NUMBER_ROOM,
     PHASES_OFFSET,
     axes_over_phi,
     degrees_below,
     height_range,
     ordinate_title,
+    standing_apart,
 )
 from graphcam.constructions.graduation import graduation_marks
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
@@ -320,18 +320,12 @@ def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve:
 
 
 def _names(plotted: Construction[ArcDiagramsGivens], dots: Drawn) -> list[Mark]:
-    """The names of the plotted stations; where those of an arc stand too close together, only those of its ends."""
-    stations, found = plotted.givens.rolled.givens.stations, dict[str, complex]()
-    marks: list[Mark] = []
-    for span in stations.spans:
-        apart = np.abs(np.diff(dots.shown[span]))
-        close = not np.nanmin(apart, initial=np.inf) >= NUMBER_ROOM[1]
-        for k in (span.start, span.stop - 1) if close else range(span.start, span.stop):
-            at, name = complex(dots.shown[k]), stations.names[k]
-            if not np.isnan(at) and not abs(found.get(name, np.inf) - at) < NUMBER_ROOM[1]:
-                found[name] = at
-                marks.append(dots[k].label(name, UP if at.imag >= 0 else -UP, small=True))
-    return marks
+    """The names of the plotted stations, as many as have room."""
+    stations, at = plotted.givens.rolled.givens.stations, dots.shown
+    return [
+        dots[k].label(stations.names[k], UP if at[k].imag >= 0 else -UP, small=True)
+        for k in standing_apart(at, stations.ends_first)
+    ]
 
 
 def _whole_turn(plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str) -> Drawn:

@@ -10,6 +10,7 @@ import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable_step
 from graphcam.constructions.arc_profile import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs, sense_sign
+from graphcam.constructions.axes import standing_apart
 from graphcam.constructions.velocity_plan import VelocityScale
 from graphcam.constructions.views import at_scale
 from graphcam.drafting import telling
@@ -242,8 +243,7 @@ def _velocities(rolled: RollerOnArcs) -> Step:
         Row(telling.STATION.with_values(name=name), told(j[0]), (rods[j], across[j], k[j]))
         for name, j in stations.places.items()
     )
-    first = [j for j, *_ in stations.places.values()]
-    named = [j for j in first if not np.isnan(paper[j])]
+    named = standing_apart(k.shown, stations.ends_first)
     out = across.directions * -sense_sign(rolled.givens.arcs)
     marks: tuple[Mark, ...] = (
         Segments(rolled.acts["B"].shown, k.shown, Role.CONSTRUCTION).left_by(rods),
@@ -289,7 +289,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         ).with_values(n_at=n_at.with_values(**named), **named)
         return said.with_values(ck=ck[j], om=om[j], mu=mu, way=way, a=a)
 
-    named = [j for j in range(stations.u.size) if not np.isnan(om[j])]
+    named = standing_apart(m.shown, stations.ends_first)
     marks: tuple[Mark, ...] = (
         rays.segments(Role.CONSTRUCTION),
         Segments(np.zeros_like(m.shown), m.shown, Role.CURVE).left_by(rays),

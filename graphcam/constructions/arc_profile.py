@@ -132,6 +132,15 @@ class ArcStations:
         return {name: [k for k, each in enumerate(self.names) if each == name] for name in dict.fromkeys(self.names)}
 
     @cached_property
+    def ends_first(self) -> list[int]:
+        """All stations, the ends of the arcs before those between, for what has no room for every name.
+
+        >>> divide_arcs(2).ends_first
+        [0, 2, 3, 5, 6, 8, 1, 4, 7]
+        """
+        return sorted(range(self.u.size), key=lambda k: 0 < self.u[k] < 1)
+
+    @cached_property
     def titles(self) -> list[Words]:
         """The names of all stations, with their arc where two stations bear one name."""
         titles: list[Words] = []

@@ -28,6 +28,7 @@ from graphcam.constructions.arc_profile import (
     outline,
     sense_sign,
 )
+from graphcam.constructions.axes import standing_apart
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
@@ -323,8 +324,8 @@ def _stations(rolled: RollerOnArcs) -> Step:
     phi, s = np.degrees(rolled.first("phi")), rolled.first("s")
     at = worked_station(stations, s)
     named = (
-        Label(ends[k], name, ray[k], small=True, of=rays.act, index=rays[k].index)
-        for name, (k, *_) in stations.places.items()
+        Label(ends[k], stations.names[k], ray[k], small=True, of=rays.act, index=rays[k].index)
+        for k in standing_apart(ends, stations.ends_first)
     )
     marks: tuple[Mark, ...] = (
         Segments(rays.shown, ends, Role.CONSTRUCTION).left_by(rays),

@@ -480,12 +480,24 @@ def clear_numbers(points: Points, stations: Stations, beside: Points) -> NDArray
     clear, named = np.zeros(points.shape, dtype=bool), numbered_stations(points, stations)
     for span in stations.phases:
         parts = span.stop - span.start - 1
-        taken = list(beside)
-        for k in sorted((k for k in named if span.start <= k < span.stop), key=lambda k: (k - span.start) % parts):
-            if all(abs(points[k] - other) >= NUMBER_ROOM[0] for other in taken):
-                clear[k] = True
-                taken.append(points[k])
+        own = sorted((k for k in named if span.start <= k < span.stop), key=lambda k: (k - span.start) % parts)
+        clear[standing_apart(points, own, beside)] = True
     return clear
+
+
+def standing_apart(points: Points, order: Iterable[int], beside: Iterable[complex] = ()) -> list[int]:
+    """The numbers of points whose names have room beside those before them in an order, and ``beside`` others.
+
+    >>> standing_apart(np.array([0, 1, 6, 7, np.nan]) + 0j, [3, 0, 1, 2, 4])
+    [0, 3]
+    """
+    found, taken = list[int](), list(beside)
+    for k in order:
+        # What cannot be read has no place.
+        if not np.isnan(points[k]) and all(abs(points[k] - other) >= NUMBER_ROOM[0] for other in taken):
+            found.append(k)
+            taken.append(points[k])
+    return sorted(found)
 
 
 def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:

@@ -1,4 +1,4 @@
-"""What would make the sheets of a task better: smaller diagrams on fewer sheets, or a format with wider parts.
+"""What would make the sheets of a task better: smaller diagrams on fewer sheets, or a larger format.
 
 The ordinate and the poles count where the task leaves them open.
 They are chosen as large as their format suits, without a look at what else stands on the sheets: so a sheet may be left
@@ -6,10 +6,12 @@ half empty by a diagram that is a little too high.
 """
 
 import math
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import get_args
 
+from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, VELOCITY
 from graphcam.drafting.ink import Caption, say
@@ -20,6 +22,7 @@ from graphcam.sheets.page_filling import ONE_PAGE
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.diagram_sizes import (
     DEFAULT_POLE,
+    MIN_POLE,
     NARROW_PART_WIDTH,
     STANDARD_ORDINATES,
     STANDARD_POLES,
@@ -34,6 +37,8 @@ PROJECTED_VIEWS = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.
 """The names of the views between which lines are projected."""
 MIN_ORDINATE_SHARE = 0.5
 """The minimum ordinate that is suggested, as a part of the chosen one."""
+MIN_TRIED_DIVISIONS = 4
+"""Fewer parts of a phase are not suggested: the curves would be too coarse."""
 MAX_TRIED_ORDINATES = 3
 """The maximum number of ordinates that are tried, since a layout takes its time."""
 FEWER_SHEETS_NOTE = say(
@@ -82,29 +87,59 @@ WIDER_PARTS_NOTE = say(
     "The narrowest parts are {width:.1f} mm wide on {format}, which is little for a hand; on {larger} they are "
     "{wider:.1f} mm wide."
 )
+FEWER_PARTS_NOTE = say(
+    "The narrowest parts are {width:.1f} mm wide on {format}, which is little for a hand; with divisions = {divisions} "
+    "in [drawing] they would be {wider:.1f} mm wide."
+)
+LONGER_POLES_NOTE = say(
+    "A pole is {pole:g} mm long on {format}, which is short for a straightedge; on {larger} no pole is shorter than "
+    "{longer:g} mm."
+)
 
 
-def wider_parts(solution: AnySolution) -> Caption | None:
-    """The next format on which the parts of the phases are wide enough to be drawn by hand; None where they are.
+def larger_paper(solution: AnySolution) -> Iterator[Caption]:
+    """What would make parts of the phases and poles long enough to be drawn by hand: the next format, or fewer parts.
 
     >>> import graphcam as gc
-    >>> from graphcam.report.fewer_sheets import wider_parts
+    >>> from graphcam.report.fewer_sheets import larger_paper
     >>> task = gc.builtin_task("sizing")
-    >>> print(wider_parts(gc.solve(replace(task, drawing=task.drawing.on("A4")))))
-    The narrowest parts are 2.9 mm wide on A4, which is little for a hand; on A3 they are 4.4 mm wide.
+    >>> for hint in larger_paper(gc.solve(replace(task, drawing=task.drawing.on("A4")))):
+    ...     print(hint)
+    The narrowest parts are 3.5 mm wide on A4, which is little for a hand; on A3 they are 5.8 mm wide.
+    A pole is 25 mm long on A4, which is short for a straightedge; on A3 no pole is shorter than 40 mm.
     """
     if not isinstance(solution, Solution):
-        return None
+        return
     now, drawing = solution.chain.board, solution.task.drawing
-    narrow = narrowest_part(now.stations)
-    if (width := narrow / now.mu_phi.per_mm) >= NARROW_PART_WIDTH:
-        return None
-    formats = get_args(Format)
-    for larger in reversed(formats[: formats.index(drawing.format)]):
-        there = board_of(replace(solution.task, drawing=replace(drawing.on(larger), whole_turn=False)))
-        if (wider := narrow / there.mu_phi.per_mm) >= NARROW_PART_WIDTH:
-            return WIDER_PARTS_NOTE.with_values(width=width, format=drawing.format, larger=larger, wider=wider)
-    return None
+    narrow, short = _narrowest(now) < NARROW_PART_WIDTH, drawing.poles is None and min(now.poles) < MIN_POLE
+    larger = get_args(Format)[: get_args(Format).index(drawing.format)] if narrow or short else ()
+    tables = {each: replace(drawing.on(each), whole_turn=False) for each in reversed(larger)}
+    boards = {each: board_of(replace(solution.task, drawing=table)) for each, table in tables.items()}
+    values = {"format": drawing.format, "width": _narrowest(now), "pole": min(now.poles)}
+    if narrow:
+        wider = ((each, wide) for each, board in boards.items() if (wide := _narrowest(board)) >= NARROW_PART_WIDTH)
+        if found := next(wider, None):
+            yield WIDER_PARTS_NOTE.with_values(**values, larger=found[0], wider=found[1])
+        elif found := next(_fewer_parts(solution), None):
+            yield FEWER_PARTS_NOTE.with_values(**values, divisions=found[0], wider=found[1])
+    if short:
+        longer = ((each, min(board.poles)) for each, board in boards.items() if min(board.poles) >= MIN_POLE)
+        if found := next(longer, None):
+            yield LONGER_POLES_NOTE.with_values(**values, larger=found[0], longer=found[1])
+
+
+def _narrowest(board: Board) -> float:
+    """How wide the narrowest part is on paper [mm]."""
+    return narrowest_part(board.stations) / board.mu_phi.per_mm
+
+
+def _fewer_parts(solution: Solution) -> Iterator[tuple[int, float]]:
+    """The largest number of parts a phase that are wide enough on the same format, and how wide they are [mm]."""
+    drawing = solution.task.drawing
+    for divisions in range(solution.chain.board.divisions - 1, MIN_TRIED_DIVISIONS - 1, -1):
+        wide = _narrowest(board_of(replace(solution.task, drawing=replace(drawing, divisions=divisions))))
+        if wide >= NARROW_PART_WIDTH:
+            yield divisions, wide
 
 
 def _suggestion(contents: Contents, task: Task, now: _PageCounts, tried: DrawingTable) -> Caption | None:

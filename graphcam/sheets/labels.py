@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -37,8 +38,14 @@ TEXT_MARGIN = 0.45
 """The free margin around a text [mm]."""
 TEXT_COST, BOLD_LINE_COST, MEASURE_COST, THIN_LINE_COST, HATCH_COST = 2000.0, 200.0, 80.0, 2.0, 0.4
 """Costs of a cell with another text, a bold line, a dimension, curve or axis, construction lines, or hatching."""
-LEADER_CROSSING_COST = 60.0
+LEADER_CROSSING_COST = 250.0
 """The cost of a leader that crosses another one."""
+ORDERS_OF_CROSSED: tuple[Callable[[list[int]], Sequence[int]], ...] = (
+    lambda labels: labels,
+    lambda labels: labels[::-1],
+    lambda labels: labels[::2] + labels[1::2],
+)
+"""The orders in which labels with crossing leaders choose once more."""
 BARRED_COST = 1000.0
 """The cost of a place in another view."""
 ROLE_COSTS: Mapping[str, float] = {
@@ -212,7 +219,10 @@ class Occupancy:
 
     def take(self, points: Points, cost: float) -> None:
         """Set the cost of the points' cells, unless it is higher already."""
-        cells, where = self.cells.reshape(-1), self._cell_numbers(points.real, points.imag)
+        self._raise_cost(self._cell_numbers(points.real, points.imag), cost)
+
+    def _raise_cost(self, where: NDArray[np.intp], cost: float) -> None:
+        cells = self.cells.reshape(-1)
         cells[where] = np.maximum(cells[where], cost)
 
     def cost(self, points: Points) -> Floats:
@@ -227,17 +237,49 @@ class Occupancy:
     def _cost(self, where: NDArray[np.intp]) -> Floats:
         return self.cells.reshape(-1).take(where).sum(axis=-1, dtype=np.float64)
 
+    def copy(self) -> Occupancy:
+        """A copy that can be taken otherwise."""
+        copied = copy(self)
+        copied.cells, copied.leaders = self.cells.copy(), list(self.leaders)
+        return copied
+
+    def footprint(self, entities: Sequence[Entity]) -> Footprint:
+        """What a label's text and leader take."""
+        leaders = [each for each in entities if isinstance(each, Strokes)]
+        return Footprint(list(self._cells_of(entities)), leaders)
+
+    def put(self, label: Footprint) -> None:
+        """Occupy the cells of a label."""
+        for where, cost in label.cells:
+            self._raise_cost(where, cost)
+        self.leaders += label.leaders
+
     def take_entities(self, entities: Iterable[Entity]) -> None:
         """Occupy the cells of lines, circles, arcs and texts."""
+        for where, cost in self._cells_of(entities):
+            self._raise_cost(where, cost)
+
+    def _cells_of(self, entities: Iterable[Entity]) -> Iterator[tuple[NDArray[np.intp], float]]:
+        """The cells of entities, and what a letter in them costs."""
         lines: dict[float, list[Entity]] = {}
         for entity in entities:
             if isinstance(entity, Text):
                 a, b, _, d = corners(entity).tolist()
-                self.take(_grid(a, b - a, d - a), TEXT_COST)
+                points = _grid(a, b - a, d - a)
+                yield self._cell_numbers(points.real, points.imag), TEXT_COST
             else:
                 lines.setdefault(_line_cost(entity.role), []).append(entity)
         for cost, alike in lines.items():
-            self.take(sampled(*linework(alike), 0.7 * CELL_SIDE), cost)
+            points = sampled(*linework(alike), 0.7 * CELL_SIDE)
+            yield self._cell_numbers(points.real, points.imag), cost
+
+
+@dataclass(frozen=True, eq=False)
+class Footprint:
+    """What a label takes of the paper: cells with what a letter in them costs, and leaders."""
+
+    cells: list[tuple[NDArray[np.intp], float]]
+    leaders: list[Strokes]
 
 
 def _cell_numbers(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
@@ -263,17 +305,52 @@ def _shares(length: float) -> Floats:
 def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside: Box) -> list[int]:
     """The index of the place of every label, kept off what is drawn and inside a box.
 
-    Texts of dimensions choose first: they belong to their lines.
+    Texts of dimensions choose first: they belong to their lines.  Those whose leaders cross choose once more, after all
+    others and in other orders, as long as that leaves fewer crossings.
     """
     paper = Occupancy(inside)
     paper.take_entities(drawn)
-    chosen = [0] * len(writings)
-    for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
+    lines, chosen = paper.copy(), dict[int, int]()
+    footprints = dict[int, Footprint]()
+    order = sorted(range(len(writings)), key=lambda k: not writings[k].bound)
+    _choose_in_turn(writings, order, paper, chosen, footprints)
+    crossed = _labels_crossed(writings, chosen)
+    others: Occupancy | None = None
+    for reordered in ORDERS_OF_CROSSED:
+        if not crossed:
+            break
+        if others is None:
+            others = lines.copy()
+            for k in chosen.keys() - crossed.keys():
+                others.put(footprints[k])
+        tried, taken = dict(chosen), dict(footprints)
+        _choose_in_turn(writings, reordered(list(crossed)), others.copy(), tried, taken)
+        if sum((left := _labels_crossed(writings, tried)).values()) < sum(crossed.values()):
+            chosen, crossed, footprints, others = tried, left, taken, None
+    return [chosen[k] for k in range(len(writings))]
+
+
+def _choose_in_turn(
+    writings: Sequence[LabelText],
+    order: Iterable[int],
+    paper: Occupancy,
+    chosen: dict[int, int],
+    footprints: dict[int, Footprint],
+) -> None:
+    """Let labels choose one after the other, beside all that is on the paper; note their places and what they take."""
+    for k in order:
         chosen[k] = _choose(writings[k], paper)
-        text, *leader = placed_label(writings[k], chosen[k])
-        paper.take_entities([text, *leader])
-        paper.leaders += [each for each in leader if isinstance(each, Strokes)]
-    return chosen
+        footprints[k] = paper.footprint(placed_label(writings[k], chosen[k]))
+        paper.put(footprints[k])
+
+
+def _labels_crossed(writings: Sequence[LabelText], chosen: Mapping[int, int]) -> dict[int, int]:
+    """The labels whose leaders cross others, in the order of choice, and how many each crosses."""
+    led = [k for k, place in chosen.items() if np.isfinite(writings[k].anchors[place])]
+    leaders = [placed_label(writings[k], chosen[k])[1] for k in led]
+    starts, ends = linework(leaders)
+    counts = _crossed_leaders(starts, ends, starts, ends).astype(int).tolist()
+    return {k: count for k, count in zip(led, counts, strict=True) if count}
 
 
 def _choose(writing: LabelText, paper: Occupancy) -> int:
@@ -334,7 +411,7 @@ def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:
     inside &= (centres.imag + up > bottom) & (centres.imag - up < top)
     if led.any():
         left, bottom, right, top = edges[..., None]
-        way = anchors[led][:, None] + LEADER_FRACTIONS * (centres[led] - anchors[led])[:, None]
+        way = anchors[led][:, None] + LEADER_FRACTIONS[::3] * (centres[led] - anchors[led])[:, None]
         within = (way.real > left) & (way.real < right) & (way.imag > bottom) & (way.imag < top)
         # Where it begins in another view already, a leader leads out of it.
         inside[:, led] |= (within & ~within[..., :1]).any(axis=-1)

@@ -26,7 +26,7 @@ from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
 from graphcam.sheets.page_filling import ONE_PAGE, fill, min_pages
 from graphcam.sheets.page_space import FRAME_MARGIN, OpenPage
-from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, title_box
+from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, taken_boxes, title_box
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
 from graphcam.sheets.view_panels import panels
 from graphcam.words import Tell
@@ -195,10 +195,11 @@ def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
         name: [box.moved(origin) for box in (panel.drawn, panel.title_box)]
         for name, (panel, origin) in leaf.views.items()
     }
+    fields = [*taken_boxes(leaf.sheet, 0.0), *(block.box.moved(at) for block, at in leaf.blocks)]
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
-            others = [box for name, own in boxes.items() if name != step.view.name for box in own]
+            others = [box for name, own in boxes.items() if name != step.view.name for box in own] + fields
             barred = np.array([(box.left, box.bottom, box.right, box.top) for box in others]).reshape(-1, 4).T
             for marks, since in ((step.given + (step.under if panel.lowest else ()), 0), (step.own_marks, number)):
                 if marks or since:

@@ -22,7 +22,6 @@ from graphcam.sheets.formats import Format
 from graphcam.sheets.packing import (
     Preference,
     at_left,
-    middle,
     prefer_bottom_left,
     prefer_bottom_right,
     prefer_high,
@@ -30,13 +29,19 @@ from graphcam.sheets.packing import (
     prefer_top_left,
     prefer_top_right,
 )
-from graphcam.sheets.page_space import OpenPage, ViewRun, blank_page, fits_on_sheet, free_rooms, kept_area
+from graphcam.sheets.page_space import (
+    MAX_EMPTY_SHARE,
+    OpenPage,
+    ViewRun,
+    blank_page,
+    fits_on_sheet,
+    free_rooms,
+    kept_area,
+)
 from graphcam.sheets.tables import Block
 from graphcam.sheets.view_panels import Panel, are_disjoint, clusters, panel_origins, with_lowest
 from graphcam.words import say
 
-MAX_EMPTY_SHARE = 0.12
-"""The maximum empty rectangle that costs nothing, as a part of the frame."""
 LAST_PAGE_WEIGHT = 0.2
 """The weight of the empty rectangle of the last of several pages."""
 PARTING_COST = 0.01
@@ -143,7 +148,7 @@ def _page(sheet: Format, views: Sequence[Panel], way: Way, gap: float) -> OpenPa
     largest = max(alone, key=lambda panel: panel.box.area, default=None)
     for panels in way.runs:
         run = _standing_run(sheet, panels, gap, way)
-        preference = middle if len(way.runs) == 1 else way.preference or _preferred(sheet, panels, largest)
+        preference = way.preference or _preferred(sheet, panels, largest)
         if run is None or (by := page.find(run.boxes, preference)) is None:
             return None
         page.put_views(run, by)
@@ -186,6 +191,7 @@ class CutViews:
         self._room = sheet.content.area - kept_area(sheet)
         self._areas = [panel.box.area for panel in views]
         self._found: dict[tuple[int, int], tuple[Way, OpenPage] | None] = {}
+        self._shares: dict[tuple[int, int], float] = {}
 
     def page(self, start: int, end: int) -> tuple[Way, OpenPage] | None:
         """The first way in which the views from one to before another find room, and the page; None without room."""
@@ -236,14 +242,20 @@ class CutViews:
     def _cost(self, start: int, stop: int, *, last: bool) -> float:
         if stop == start:
             return 0.0
-        found = self.page(start, stop)
-        assert found is not None
         parting = PARTING_COST * self.parted(stop) if stop < len(self.views) else 0.0
-        return parting + _empty_cost(found[1], last=last)
+        return parting + _empty_cost(self._empty_share(start, stop), last=last)
+
+    def _empty_share(self, start: int, stop: int) -> float:
+        """The largest empty rectangle of a page, as it will be when what stands on it has been moved apart."""
+        if (start, stop) not in self._shares:
+            found = self.page(start, stop)
+            assert found is not None
+            self._shares[start, stop] = found[1].final_empty_share
+        return self._shares[start, stop]
 
 
-def _empty_cost(page: OpenPage, *, last: bool) -> float:
-    return max(0.0, page.empty_share - MAX_EMPTY_SHARE) ** 2 * (LAST_PAGE_WEIGHT if last else 1.0)
+def _empty_cost(share: float, *, last: bool) -> float:
+    return max(0.0, share - MAX_EMPTY_SHARE) ** 2 * (LAST_PAGE_WEIGHT if last else 1.0)
 
 
 # --- with tables -----------------------------------------------------------------------------------------------------
@@ -289,7 +301,7 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
     for pages in count(min_pages(sheet, views)):
         tried = settings if pages > 1 else settings[::2]
         if found := _filled(cut_views, cut_views.cuts(pages), tried):
-            return [page.centred() for page in found]
+            return [page.spread() for page in found]
     raise AssertionError("pages without end take everything")
 
 
@@ -331,4 +343,4 @@ def _pages_of(cut_views: CutViews, cut: tuple[int, ...], gap: float) -> list[Ope
 def _cost_of(cut_views: CutViews, cut: tuple[int, ...], pages: Sequence[OpenPage]) -> float:
     parting = PARTING_COST * sum(cut_views.parted(stop) for stop in cut[1:-1])
     last = len(pages) - 1
-    return parting + sum(_empty_cost(page, last=k == last > 0) for k, page in enumerate(pages))
+    return parting + sum(_empty_cost(page.final_empty_share, last=k == last > 0) for k, page in enumerate(pages))

@@ -9,15 +9,22 @@ from itertools import product
 
 from graphcam.sheets.formats import Format
 from graphcam.sheets.model import Box, bounding_box
-from graphcam.sheets.packing import Preference, Room, middle, prefer_high
+from graphcam.sheets.packing import MESH, Preference, Room, middle, prefer_high
 from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.sheets.tables import Block
-from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, panel_origins, shares
+from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, clusters, panel_origins, shares
 
 FRAME_MARGIN = 4.0
 """The free margin along the frame [mm]; the air about a view is a part of it."""
 BOX_MARGIN = FRAME_MARGIN - LABEL_MARGIN
 """The free margin along the frame of boxes with air of their own [mm]."""
+
+MAX_EMPTY_SHARE = 0.12
+"""The maximum empty rectangle that is left as it is, as a part of the frame."""
+MAX_SPREAD = 5
+"""More views and tables than this stand close enough."""
+SPREAD_ROUNDS, SPREAD_SHARES, SPREAD_GAIN = 2, (0.5, 0.25, 0.75), 5e-3
+"""How often all that stands on a page is moved apart, to which parts of its free way, and the gain that is worth it."""
 
 
 @cache
@@ -38,6 +45,24 @@ def _rooms_between(inside: Box, taken: Sequence[Box]) -> Iterator[tuple[float, f
     """Widths and heights [mm] of the highest free boxes between the sides of boxes."""
     sides = product([inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)])
     yield from ((right - left, _highest(inside, left, right, taken)) for left, right in sides if right > left)
+
+
+def _largest_area(inside: Box, taken: Sequence[Box]) -> float:
+    """The area of the largest free box between boxes [mm²]."""
+    lefts, rights = [inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)]
+    largest = 0.0
+    for wide, left in sorted(((right - left, left) for left, right in product(lefts, rights)), reverse=True):
+        # The others are narrower.
+        if wide * inside.height <= largest:
+            break
+        largest = max(largest, wide * _highest(inside, left, left + wide, taken))
+    return largest
+
+
+@cache
+def _fields(sheet: Format) -> tuple[Box, ...]:
+    """The boxes of a sheet's own fields."""
+    return tuple(taken_boxes(sheet, 0.0))
 
 
 def _highest(inside: Box, left: float, right: float, kept: Sequence[Box]) -> float:
@@ -166,8 +191,8 @@ class OpenPage:
         """The share of the frame's inside that the largest rectangle without views, tables and fields takes."""
         views = [panel.box.moved(origin) for panel, origin in self.views.values()]
         blocks = [block.box.moved(at) for block, at in self.blocks]
-        rooms = _rooms_between(self.sheet.content, [*views, *blocks, *taken_boxes(self.sheet, 0.0)])
-        return max((wide * high for wide, high in rooms), default=0.0) / self.sheet.content.area
+        inside = self.sheet.content
+        return _largest_area(inside, [*views, *blocks, *_fields(self.sheet)]) / inside.area
 
     def centred(self) -> OpenPage:
         """The page with all that stands on it moved together, so that what is left empty lies around it."""
@@ -177,6 +202,87 @@ class OpenPage:
         views = {name: (panel, origin + by) for name, (panel, origin) in self.views.items()}
         blocks = [(block, at + by) for block, at in self.blocks]
         return OpenPage(self.sheet, self.room, [], [box.moved(by) for box in self.taken], views, blocks)
+
+    @property
+    def final_empty_share(self) -> float:
+        """The share of the frame's inside that the largest empty rectangle takes in the end; small ones as they are."""
+        share = self.empty_share
+        return share if share <= MAX_EMPTY_SHARE else self.spread().empty_share
+
+    def spread(self) -> OpenPage:
+        """The page with all that stands on it in the middle, and moved apart where that leaves less room empty."""
+        page, fixed = self.centred(), _fields(self.sheet)
+        if len(self.views) + len(self.blocks) > MAX_SPREAD or page.empty_share <= MAX_EMPTY_SHARE:
+            return page
+        inside = self.sheet.content.grown(-BOX_MARGIN)
+        for _, group in product(range(SPREAD_ROUNDS), range(len(self._groups()))):
+            groups = page._groups()
+            own = groups[group].boxes
+            others = [*fixed, *(box for each in groups if each is not groups[group] for box in each.boxes)]
+            if any(a.meets(b) for a in own for b in others):
+                continue
+            for way in (1j, 1.0 + 0j):
+                low, high = _free_way(own, others, inside, way)
+                shifts = (way * (low + share * (high - low)) for share in SPREAD_SHARES)
+                tried = [page.moved(groups[group], by) for by in shifts if abs(by) > MESH]
+                best = min(tried, key=lambda each: each.empty_share, default=page)
+                if best.empty_share < page.empty_share - SPREAD_GAIN:
+                    page = best
+                    break
+        return page
+
+    def _groups(self) -> list[StandingGroup]:
+        """What stands together on the page: views that share axes, and the tables in their empty parts."""
+        found = [
+            StandingGroup([panel.view.name for panel in cluster], [])
+            for cluster in clusters([panel for panel, _ in self.views.values()])
+        ]
+        for group in found:
+            group.boxes.extend(panel.box.moved(origin) for panel, origin in map(self.views.__getitem__, group.views))
+        for k, (block, at) in enumerate(self.blocks):
+            box = block.box.moved(at)
+            of = next((group for group in found if any(each.meets(box) for each in group.boxes)), None)
+            if of is None:
+                found.append(of := StandingGroup([], []))
+                of.boxes.append(box.grown(LABEL_MARGIN))
+            of.blocks.append(k)
+        return found
+
+    def moved(self, group: StandingGroup, by: complex) -> OpenPage:
+        """The page with a group moved."""
+        views = {
+            name: (panel, origin + by if name in group.views else origin)
+            for name, (panel, origin) in self.views.items()
+        }
+        blocks = [(block, at + by if k in group.blocks else at) for k, (block, at) in enumerate(self.blocks)]
+        return OpenPage(self.sheet, self.room, [], self.taken, views, blocks)
+
+
+@dataclass(frozen=True, eq=False)
+class StandingGroup:
+    """What moves together on a page: the names of views, the numbers of tables, and their boxes."""
+
+    views: list[str]
+    blocks: list[int]
+    boxes: list[Box] = field(default_factory=list[Box])
+
+
+def _free_way(own: Sequence[Box], others: Sequence[Box], inside: Box, way: complex) -> tuple[float, float]:
+    """How far boxes may move back and forth along an axis, ``way`` 1 or 1j, before they meet others [mm]."""
+    upright = bool(way.imag)
+
+    def span(box: Box, *, along: bool) -> tuple[float, float]:
+        """Where a box begins and ends along the axis, or across it."""
+        return (box.bottom, box.top) if along == upright else (box.left, box.right)
+
+    spans, (start, end) = [span(box, along=True) for box in own], span(inside, along=True)
+    low, high = start - min(a for a, _ in spans), end - max(b for _, b in spans)
+    for box, other in product(own, others):
+        (a, b), (c, d) = span(box, along=False), span(other, along=False)
+        if a < d and c < b:
+            (a, b), (c, d) = span(box, along=True), span(other, along=True)
+            low, high = (max(low, d - a), high) if d <= a else (low, min(high, c - b))
+    return min(low, 0.0), max(high, 0.0)
 
 
 def blank_page(sheet: Format) -> OpenPage:
@@ -193,7 +299,7 @@ def _blank_room(sheet: Format) -> Room:
 @cache
 def kept_area(sheet: Format) -> float:
     """The area of the boxes inside the frame that every sheet needs [mm²]."""
-    return sum(box.area for box in taken_boxes(sheet, 0.0))
+    return sum(box.area for box in _fields(sheet))
 
 
 def fits_on_sheet(sheet: Format, views: Sequence[Panel], gap: float) -> bool:

@@ -26,6 +26,10 @@ STANDARD_POLES = (12.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0)
 DEFAULT_POLE = 40.0
 """At 1 degree a millimetre [mm of paper]; where the axis is shorter it is shorter in proportion, so that chords keep
 their slopes."""
+MIN_POLE = 30.0
+"""Rays from a shorter pole are too short for a straightedge; where there is room, no pole is shorter [mm of paper]."""
+MIN_DISPLACEMENT = 15.0
+"""For longer poles the displacement is drawn no lower than this [mm of paper]."""
 LOW_DIAGRAM_SHARE = 0.7
 """A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
 MAX_POLE_SHARE = 0.25
@@ -50,23 +54,33 @@ def narrowest_part(stations: Stations) -> float:
     return float(np.diff(stations.phi)[stations.left][~stations.blows].min(initial=math.inf))
 
 
-def cam_angle_scale(motion: Motion, stations: Stations, usual: float, longest: float) -> Scale:
+def cam_angle_scale(
+    motion: Motion, stations: Stations, usual: float, longest: float, *, breaks: bool = True, long: bool = True
+) -> Scale:
     """The scale of the cam angle [rad/mm]: the usual one, or a finer one with broken dwells where parts were narrow.
 
     usual : degrees/mm, for a whole turn;  longest : that the axis and its usual pole may be on a page [mm of paper]
+    breaks : whether dwells may be broken
+    long : whether the axis is rather longer than usual than its parts narrower than 5 mm
     """
     least = narrowest_part(stations)
     whole = Scale(math.radians(usual), "rad")
     if whole.paper(least) >= MIN_PART_WIDTH * (1 - SAME_WIDTH):
         return whole
-    finer = [broken_axis(motion, math.radians(each)) for each in (usual, *FINER_AXES) if each <= usual]
-    lengths = [(axis, float(axis.paper(FULL_TURN)), math.radians(DEFAULT_POLE) / axis.per_mm) for axis in finer]
+    scales = [math.radians(each) for each in (usual, *FINER_AXES) if each <= usual]
+    finer = [broken_axis(motion, each) if breaks else Scale(each, "rad") for each in scales]
+    lengths = [
+        (axis, float(axis.paper(FULL_TURN)), min(MIN_POLE, math.radians(DEFAULT_POLE) / axis.per_mm)) for axis in finer
+    ]
     usual_room = [axis for axis, length, _ in lengths if length <= whole.paper(FULL_TURN) * (1 + SAME_WIDTH)] or [whole]
     page = [axis for axis, length, pole in lengths if length + pole <= longest] or usual_room
-    for axes, width in ((usual_room, MIN_PART_WIDTH), (usual_room, NARROW_PART_WIDTH), (page, NARROW_PART_WIDTH)):
+    narrow, longer = (usual_room, NARROW_PART_WIDTH), (page, MIN_PART_WIDTH)
+    between = (longer, narrow) if long else (narrow, longer)
+    for axes, width in ((usual_room, MIN_PART_WIDTH), *between, (page, NARROW_PART_WIDTH)):
         if wide := [axis for axis in axes if least / axis.per_mm >= width * (1 - SAME_WIDTH)]:
             return wide[0 if width == MIN_PART_WIDTH or axes is page else -1]
-    return usual_room[-1]
+    # Where no axis has wide parts, those of the finest are the widest.
+    return min((*usual_room, *page), key=lambda axis: axis.per_mm)
 
 
 SAME_WIDTH = 1e-9
@@ -105,9 +119,9 @@ class DrawnHeights:
     >>> room, page = DiagramRoom(2.0, a=90.0, v=75.0, s=40.0), DiagramRoom(2.0, a=162.0, v=162.0, s=162.0)
     >>> mu_phi = Scale(math.radians(2.0), "rad")
     >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), mu_phi).choose(room, page)
-    (40.0, (20.0, 40.0))
+    (40.0, (30.0, 40.0))
     >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), mu_phi).choose(room, page)
-    (1.5, (12.0, 15.0))
+    (1.5, (20.0, 20.0))
     """
 
     motion: Motion
@@ -162,6 +176,17 @@ class DrawnHeights:
 
         most : what no diagram may exceed, for no page would take it
         """
+        first, found = self.highest(room, most, ordinate, poles)
+        return first, poles or self._lengthened(most, first, found)
+
+    def highest(
+        self,
+        room: DiagramRoom,
+        most: DiagramRoom,
+        ordinate: float | None = None,
+        poles: tuple[float, float] | None = None,
+    ) -> tuple[float, tuple[float, float]]:
+        """As :meth:`choose`, with poles so short that velocity and displacement fill their room."""
         first = ordinate or self._chosen_ordinate(room, most)
         found = poles or self._chosen_poles(room, most, first)
         if ordinate is None:
@@ -197,8 +222,7 @@ class DrawnHeights:
         its room.
         """
         _, v, s = (ordinate * height for height in self.unit)
-        longest = min(MAX_POLE_SHARE * self.turn, most.pole)
-        possible = [pole for pole in STANDARD_POLES if pole <= longest] or STANDARD_POLES[:1]
+        possible = self._possible_poles(most)
         first = self._pole(possible, min(room.v, most.v), lambda pole: v / pole)
         second = self._pole(possible, min(room.s, most.s), lambda pole: s / (first * pole))
         if s > most.s * first * second:
@@ -206,6 +230,22 @@ class DrawnHeights:
             longer = [pole for pole in possible if pole >= first]
             first = next((pole for pole in longer if s <= most.s * pole * second), longer[-1])
         return first, second
+
+    def _possible_poles(self, most: DiagramRoom) -> Sequence[float]:
+        longest = min(max(MAX_POLE_SHARE * self.turn, MIN_POLE), most.pole)
+        return [pole for pole in STANDARD_POLES if pole <= longest] or STANDARD_POLES[:1]
+
+    def _lengthened(self, most: DiagramRoom, ordinate: float, poles: tuple[float, float]) -> tuple[float, float]:
+        """Poles near to others, neither of them shorter than ``MIN_POLE``, or else the shorter as long as possible."""
+        possible, product_of_both = self._possible_poles(most), poles[0] * poles[1]
+        longest = max(product_of_both, ordinate * self.unit[2] / MIN_DISPLACEMENT)
+        pairs = [(p, q) for p in possible for q in possible if p >= poles[0] and product_of_both <= p * q <= longest]
+
+        def merit(pair: tuple[float, float]) -> tuple[float, float]:
+            """How long the shorter pole is, and then how near the poles are to the others."""
+            return min(MIN_POLE, *pair), -sum(abs(math.log(new / old)) for new, old in zip(pair, poles, strict=True))
+
+        return max(pairs, key=merit, default=poles)
 
     def _pole(self, possible: Sequence[float], high: float, height: Callable[[float], float]) -> float:
         usual = DEFAULT_POLE / self.degrees_per_mm

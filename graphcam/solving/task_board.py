@@ -29,6 +29,7 @@ from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
+from graphcam.sheets.page_filling import ONE_PAGE
 from graphcam.sheets.page_space import free_rooms
 from graphcam.solving.diagram_sizes import (
     DEFAULT_POLE,
@@ -95,14 +96,18 @@ def board_of(task: Task) -> Board:
     divided = partial(divide, motion, divisions, at_corners=at_corners)
     finer = {} if drawing.divisions else finer_parts(motion, divisions, lambda finer: divided(finer=finer))
     mu_phi = mu_alpha = Scale(math.radians(room.degrees_per_mm), "rad")
-    if not drawing.whole_turn and task.motion.phases:
-        mu_phi = cam_angle_scale(motion, divided(finer=finer), room.degrees_per_mm, longest_axis(drawing))
+    if not drawing.whole_turn:
+        # The diagrams of what was measured show the whole turn.
+        breaks, longest = bool(task.motion.phases), longest_axis(drawing)
+        # A longer axis would take the room of other views on a sheet that shows all of them.
+        long, usual = drawing.format not in ONE_PAGE, room.degrees_per_mm
+        mu_phi = cam_angle_scale(motion, divided(finer=finer), usual, longest, breaks=breaks, long=long)
     heights, given = DrawnHeights(motion, mu_phi), (drawing.ordinate, drawing.poles)
     most = page_room(task, heights, follower)
     if mu_phi != mu_alpha:
         # The displacement is no higher than at the usual scale, so that the combined diagram keeps to its room.
         usual, page = DrawnHeights(motion, mu_alpha), most
-        most = replace(page, s=min(page.s, usual.displacement(*usual.choose(room, page, *given))))
+        most = replace(page, s=min(page.s, usual.displacement(*usual.highest(room, page, *given))))
         if any(given) and not heights.fit(page, *heights.choose(room, most, *given)):
             # Given sizes may suit the whole turn alone.
             mu_phi, heights, most = mu_alpha, usual, page_room(task, usual, follower)

@@ -21,14 +21,20 @@ from overlaps import overlaps
 from random_sheets import solved
 
 import graphcam as gc
-from graphcam.constructions.axes import part_names
+from graphcam.constructions.axes import broken_axis, part_names
 from graphcam.drafting.marks import Role
+from graphcam.drafting.scale import Scale
+from graphcam.given.motion import FULL_TURN
 from graphcam.report.documents import contents_of, drawing_of
+from graphcam.report.fewer_sheets import larger_paper
 from graphcam.report.sheet_contents import Contents
 from graphcam.sheets.model import Drawing, Entity, Page, Strokes, Text
 from graphcam.sheets.sampling import box_around, box_of, corners, linework, sampled
 from graphcam.sheets.styles import BOLD
 from graphcam.solving.arcs_solution import AnySolution
+from graphcam.solving.diagram_sizes import MIN_POLE, narrowest_part
+from graphcam.solving.solution import Solution
+from graphcam.solving.task_board import longest_axis
 from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_arcs_task, builtin_task
 
 CELL = 4.0
@@ -38,7 +44,10 @@ MAX_EMPTY_SHARE = 0.2
 MIN_PART_WIDTH = 4.0
 """The minimum width of a part of a phase [mm]."""
 MAX_PARTS_ON_A4 = 24
-"""With more parts than this on A4 they may be narrower."""
+"""With more parts than this on A4 they may be narrower.
+
+So they may on any format that has no room for parts of this width, if a larger one, or fewer parts, are proposed.
+"""
 TANGLE_SIZE = 20.0
 """Crossings of leaders that are no farther apart are one tangle [mm]."""
 MIN_CROSSING_LEADERS = 3
@@ -97,8 +106,20 @@ def measured(solution: AnySolution) -> LayoutMeasures:
         [f"{each.text!r} on {each.other!r}, page {each.page}" for each in texts],
         unnumbered,
         rays,
-        solution.task.drawing.format == "A4" and parts > MAX_PARTS_ON_A4,
+        (solution.task.drawing.format == "A4" and parts > MAX_PARTS_ON_A4)
+        or (not _has_room_for_wide_parts(solution) and any(larger_paper(solution))),
     )
+
+
+def _has_room_for_wide_parts(solution: AnySolution) -> bool:
+    """Whether an axis of the cam angle with parts of the minimum width, and the shortest pole, fit a page."""
+    if not isinstance(solution, Solution):
+        return True
+    board = solution.chain.board
+    per_mm = narrowest_part(board.stations) / MIN_PART_WIDTH
+    # The diagrams of what was measured show the whole turn.
+    axis = broken_axis(board.motion, per_mm) if solution.task.motion.phases else Scale(per_mm, "rad")
+    return float(axis.paper(FULL_TURN)) + MIN_POLE <= longest_axis(solution.task.drawing)
 
 
 def _early_views(contents: Contents, drawing: Drawing) -> list[tuple[str, str]]:
@@ -284,6 +305,8 @@ def main() -> int:
         unnumbered += len(found.unnumbered)
         empty = " ".join(f"{share:.2f}" for share in found.empty)
         print(f"{name}: {len(found.empty)} pages, empty {empty}, parts {found.part_width:.2f} mm")
+        if found.part_width < MIN_PART_WIDTH and found.narrow_allowed:
+            print("    narrow parts, for the format has no room for wider ones")
         for goal, what in found.missed().items():
             total[goal] = total.get(goal, 0) + 1
             said = what if asked.all or not isinstance(what, list) else f"{len(what)}: {what[:3]}"
