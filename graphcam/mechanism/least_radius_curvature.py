@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.follower import Follower, Limits
+from graphcam.given.follower import Follower, Limits, no_prime_radius
 from graphcam.given.motion import Motion
 from graphcam.given.root_finding import roots
 from graphcam.mechanism.followers import kinematics
@@ -75,10 +75,7 @@ def sharp_enough(
         kept, radius = False, math.inf
     if kept:
         return replace(least, prime_radius=radius, active=("curvature",))
-    limit = say("so small that some prime radius has it within the permitted pressure angles at {place}")
-    at = say("a centre distance of {distance:g} mm", distance=least.place)
-    remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
-    raise DesignError(say("minimum radius of curvature"), curvature, limit.with_values(place=at), remedy)
+    raise no_prime_radius(say("minimum radius of curvature"), curvature, say("take a smaller roller"))
 
 
 def _first_without(excess: Callable[[float], float], radius: float, most: float) -> float | None:
