@@ -119,7 +119,7 @@ def _run_end(points: Complexes, start: int, most: int) -> int:
 
 
 def _on_one(points: Complexes) -> bool:
-    """Whether points lie on the circle, or the line, through three of them."""
+    """Whether points lie on the circle, or the line, through three of them; three alone on a line."""
     first, second, third = points[0], points[points.size // 3], points[2 * points.size // 3]
     a, b = second - first, third - first
     bend = 2 * (a.conjugate() * b).imag
@@ -127,7 +127,7 @@ def _on_one(points: Complexes) -> bool:
         way = points[-1] - first
         return bool(np.abs(((points - first) * np.conj(way)).imag).max() <= ON_CIRCLE * abs(way))
     centre = first + 1j * (a * abs(b) ** 2 - b * abs(a) ** 2) / bend
-    return bool(np.abs(np.abs(points - centre) - abs(first - centre)).max() <= ON_CIRCLE)
+    return points.size > 3 and bool(np.abs(np.abs(points - centre) - abs(first - centre)).max() <= ON_CIRCLE)
 
 
 # --- circles and lines that touch ------------------------------------------------------------------------------------
