@@ -51,7 +51,9 @@ def names_of(word: str, section: str = "") -> tuple[str, ...]:
     >>> names_of("линейно убывающее ускорение"), names_of("acw"), names_of("cw")
     (('2-3',), ('ccw',), ())
     """
-    sections = [section] if section else [name for name in table() if name not in ("half", "double", "omega")]
+    sections = (
+        [section] if section else [name for name in table() if name not in ("half", "double", "omega", "columns")]
+    )
     called = plain(word)
     return tuple(
         dict.fromkeys(name for each in sections for name, words in table()[each].items() if called in map(plain, words))

@@ -159,7 +159,10 @@ def measure_phases(
     directions, dwells = tuple(int(way) for way in givens.motion.directions), givens.outline.dwells
     if directions.count(0) != len(dwells):
         return at_joints  # of an outline by points no eye tells where an arc about the cam centre ends
-    formula = partial(_phase_angles, directions, dwells, givens.phi)
+    # Of several strokes the eye knows which turn is meant: that between the middles of the two phases.
+    spans = [span for _, *span in givens.motion.timing]
+    middles = tuple((start + end) / 2 for start, end in spans)
+    formula = partial(_phase_angles, directions, dwells, middles, givens.phi)
     angles = calculated_setting(formula, s, *([] if at_joints is None else [at_joints]))
     hand.read("phase_angles", angles, 1.0, rounded=False)
     hand.read("rise_angle", calculated_setting(_first_of, angles), 1.0, rounded=False)
@@ -215,17 +218,24 @@ def _highest(s: Floats) -> Floats:
 
 
 def _phase_angles(
-    directions: Sequence[int], dwells: Sequence[int], phi: Floats, s: Floats, angles: Floats | None = None
+    directions: Sequence[int],
+    dwells: Sequence[int],
+    middles: Sequence[float],
+    phi: Floats,
+    s: Floats,
+    angles: Floats | None = None,
 ) -> Floats:
     """The angles of the phases (..., k) [rad]: a dwell has the ends of an arc, else s is greatest or least between.
 
     dwells : the numbers of the pieces about the cam centre;  angles : (..., j) of the joints, with which they begin
+    middles : cam angles of the middles of the phases, between which a turn is looked for
     """
     begins, passed = list[Floats](), 0
     for k, way in enumerate(directions):
         before = directions[k - 1]
         if way and before:
-            at = np.argmax(before * s, axis=-1)
+            between = (phi - middles[k - 1]) % FULL_TURN <= ((middles[k] - middles[k - 1]) % FULL_TURN or FULL_TURN)
+            at = np.argmax(np.where(between, before * s, -np.inf), axis=-1)
             begins.append((at + top_of_parabola(s, at)[1]) * (phi[1] - phi[0]))
         else:
             assert angles is not None

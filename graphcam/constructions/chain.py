@@ -38,7 +38,7 @@ from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest_scale, standard_scale
 from graphcam.errors import DesignError
-from graphcam.given.follower import LIMIT_NAMES
+from graphcam.given.follower import LIMIT_NAMES, no_prime_radius
 from graphcam.given.laid_outline import GivenCamMotion, laid_outline
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
@@ -59,15 +59,13 @@ PERFECT_PENCIL = Pencil()
 
 def _no_radius(board: Board, trial: Trial) -> DesignError:
     """What to tell where no prime radius within the permitted pressure angles suffices."""
-    limit = say("so small that some prime radius has it within the permitted pressure angles")
     if trial.too_thin > trial.too_sharp:
-        remedy = say("lengthen the centre distance, take a smaller bore, or permit larger pressure angles")
-        return DesignError("part.bore", say("{length:.4g} mm with keyway and wall", length=trial.shaft), limit, remedy)
-    remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
+        found = say("{length:.4g} mm with keyway and wall", length=trial.shaft)
+        return no_prime_radius("part.bore", found, say("take a smaller bore"))
+    smaller = say("take a smaller roller")
     if board.min_profile_radius is None:
-        limit = say("so small that some prime radius within the permitted pressure angles is not undercut by it")
-        return DesignError("roller radius", say("{length:.4g} mm", length=board.roller_radius), limit, remedy)
-    return DesignError("limits.min_curvature_radius", board.min_profile_radius, limit, remedy)
+        return no_prime_radius("roller radius", say("{length:.4g} mm", length=board.roller_radius), smaller)
+    return no_prime_radius("limits.min_curvature_radius", board.min_profile_radius, smaller)
 
 
 @dataclass(frozen=True)

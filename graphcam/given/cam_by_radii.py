@@ -75,8 +75,8 @@ class ArcOutline:
         """Whether it is one circle about another point than the cam centre."""
         return self.ascent == FULL_TURN / 2
 
-    def arcs(self) -> Sequence[OutlineArc]:
-        """Its parts in the order in which the rise meets them, on a cam that turns counter-clockwise."""
+    def arcs(self, _sigma: int = 1) -> Sequence[OutlineArc]:
+        """Its parts in the order in which the rise meets them, of a cam that turns clockwise its mirror image's."""
         base, nose, d = self.base_radius, self.nose_radius, self.nose_distance
         if self.is_eccentric:
             return [OutlineArc(complex(-d), nose, 0j, complex(base), 1 + 0j)]

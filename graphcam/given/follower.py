@@ -222,3 +222,13 @@ class Limits:
             if value is not None and (given := math.degrees(value)) <= QUARTER_TURN:
                 return name, round(given, 12)
         return None
+
+
+def no_prime_radius(quantity: Words, value: object, smaller: Words) -> DesignError:
+    """The error of a size that goes with no prime radius within the permitted pressure angles.
+
+    smaller : the remedy of taking a smaller one
+    """
+    limit = say("so small that some prime radius goes with it within the permitted pressure angles")
+    remedy = say("{smaller}, lengthen the centre distance, or permit larger pressure angles")
+    return DesignError(quantity, value, limit, remedy.with_values(smaller=smaller))

@@ -25,6 +25,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 
 from graphcam.errors import DesignError, check_kind
+from graphcam.given.arc_loop import ArcLoop
 from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
 from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
@@ -50,7 +51,7 @@ CHECKED_PLACES = 65
 """Places of an arc at which the pressure angle is looked at."""
 MOST_STEEP = 1e3
 """So many prime radii per radian no follower moves that is not about to jam."""
-JOINED = 1e-7
+JOINED = 1e-6
 """By so much of its maximum the displacement, or the velocity, may seem to jump where one part follows another."""
 SAME_PLACE = 1e-9
 """Cam angles [rad] nearer to one another are the same: a turning that is found twice, or where a part begins."""
@@ -68,13 +69,20 @@ class OutlineMotion(Motion):
     prime_radius : of the pitch curve [mm], the base radius and the roller together
     follower, rotation : what it moves, and the sense in which it turns
     arcs : the parts of the pitch curve, of a flat face those of the cam, where they lie at phi = 0
+    zero : the cam angle [rad] of the cam as it is given at which the first phase begins
     """
 
-    outline: ArcOutline
+    outline: ArcOutline | ArcLoop
     prime_radius: float
     follower: Follower
     rotation: Rotation
     arcs: Sequence[OutlineArc]
+    zero: float = 0.0
+
+    @property
+    def origin(self) -> float:
+        """The cam angle [rad] of the cam as it is given at which the first phase begins."""
+        return self.zero
 
     def __reduce__(self) -> tuple[Any, ...]:
         """What another process needs: the laws of the phases are formulas, which are made again."""
@@ -85,13 +93,16 @@ class OutlineMotion(Motion):
 
 
 @overload
-def outline_motion(outline: ArcOutline, follower: Follower, rotation: Rotation = "ccw") -> OutlineMotion: ...
+def outline_motion(outline: ArcOutline | ArcLoop, follower: Follower, rotation: Rotation = "ccw") -> OutlineMotion: ...
 @overload
 def outline_motion(
     outline: PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
 ) -> TracedMotion: ...
 def outline_motion(
-    outline: ArcOutline | PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
+    outline: ArcOutline | ArcLoop | PointOutline,
+    follower: Follower,
+    rotation: Rotation = "ccw",
+    tolerance: float | None = None,
 ) -> OutlineMotion | TracedMotion:
     """What a given cam does to a follower: one of base circle, flank and nose, or one through points.
 
@@ -116,7 +127,7 @@ def outline_motion(
     >>> (a * (600 * math.pi / 30) ** 2 / 1000).round(2).tolist()
     [173.71, -146.67]
     """
-    check_kind("outline", outline, (ArcOutline, PointOutline))
+    check_kind("outline", outline, (ArcOutline, ArcLoop, PointOutline))
     if isinstance(outline, PointOutline):
         return traced_motion(outline, follower, rotation, tolerance)
     if tolerance is not None:
@@ -130,19 +141,25 @@ def outline_motion(
         OutlineArc(turn * arc.centre, arc.radius, turn * arc.normal, turn * arc.point, turn * arc.outward)
         for arc in track.arcs
     ]
-    return OutlineMotion([_phase(track, leg) for leg in legs], outline, track.prime_radius, follower, rotation, arcs)
+    zero = 0.0
+    if isinstance(outline, ArcLoop):
+        zero = float(wrap(track.sigma * cmath.phase(track.turned) + legs[0][0].start))
+    phases = [_phase(track, leg) for leg in legs]
+    return OutlineMotion(phases, outline, track.prime_radius, follower, rotation, arcs, zero)
 
 
 class _Track(NamedTuple):
     """The arcs for the trace point, and how it stands on one.
 
     arcs : with radii and points of the trace point, turned to where they lie at phi = 0
+    turned : by what the outline is turned to lie there
     position : where the trace point is at a distance from the cam centre; of a flat face the direction of its normal
     stand : (arc, phi) to s and its derivatives
     by_normal : whether a part begins where its normal, and not its first point, lies as ``position`` tells
     """
 
     arcs: Sequence[OutlineArc]
+    turned: complex
     sigma: int
     prime_radius: float
     position: Callable[[float], Complexes | complex]
@@ -151,13 +168,13 @@ class _Track(NamedTuple):
 
 
 @singledispatch
-def _track(follower: Follower, outline: ArcOutline, sigma: int) -> _Track:
+def _track(follower: Follower, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
     """How a follower stands on the arcs: the one place that asks which it is."""
     raise unfit_follower()
 
 
 @_track.register
-def _(follower: Translating, outline: ArcOutline, sigma: int) -> _Track:
+def _(follower: Translating, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
     way = trace(follower, outline.base_radius)
 
     def stand(arc: OutlineArc, phi: Floats) -> Values:
@@ -167,7 +184,7 @@ def _(follower: Translating, outline: ArcOutline, sigma: int) -> _Track:
 
 
 @_track.register
-def _(follower: Oscillating, outline: ArcOutline, sigma: int) -> _Track:
+def _(follower: Oscillating, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
     way, distance = trace(follower, outline.base_radius), follower.distance or math.nan
 
     def stand(arc: OutlineArc, phi: Floats) -> Values:
@@ -177,20 +194,23 @@ def _(follower: Oscillating, outline: ArcOutline, sigma: int) -> _Track:
 
 
 def _by_trace(
-    way: Trace, roller: float, outline: ArcOutline, sigma: int, stand: Callable[[OutlineArc, Floats], Values]
+    way: Trace, roller: float, outline: ArcOutline | ArcLoop, sigma: int, stand: Callable[[OutlineArc, Floats], Values]
 ) -> _Track:
-    turned = complex(way.position(way.prime_radius)) / way.prime_radius
+    first = outline.arcs(sigma)[0]
+    trace_point = _seen(first.point + roller * first.outward, sigma)
+    turned = complex(way.position(abs(trace_point))) / trace_point
     arcs = _for_roller(outline, roller, turned, sigma)
-    return _Track(arcs, sigma, way.prime_radius, way.position, stand)
+    return _Track(arcs, turned, sigma, way.prime_radius, way.position, stand)
 
 
 @_track.register
-def _(follower: FlatFaced, outline: ArcOutline, sigma: int) -> _Track:
-    if not outline.is_eccentric and not 0 < outline.flank_radius < math.inf:
+def _(follower: FlatFaced, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
+    sharpest = min(outline.arcs(sigma), key=lambda arc: 1 / arc.radius)
+    if not 0 < sharpest.radius < math.inf:
         limit, remedy = say("rounded outwards under a flat face"), say("take a roller, or a flank of a large radius")
-        found = say("straight") if outline.flank_radius > 0 else say("hollow")
-        raise DesignError("flank_radius", found, limit, remedy)
-    base = outline.base_radius
+        found = say("straight") if sharpest.radius > 0 else say("hollow")
+        raise DesignError("outline" if isinstance(outline, ArcLoop) else "flank_radius", found, limit, remedy)
+    base, turned = outline.base_radius, 1j / _seen(outline.arcs(sigma)[0].outward, sigma)
 
     def stand(arc: OutlineArc, phi: Floats) -> Values:
         y, y1, y2, y3 = (turned.imag for turned in _turning(arc.centre, phi, sigma))
@@ -199,22 +219,27 @@ def _(follower: FlatFaced, outline: ArcOutline, sigma: int) -> _Track:
     def upwards(_: float) -> complex:
         return 1j
 
-    return _Track(_for_roller(outline, 0.0, 1j, sigma), sigma, base, upwards, stand, by_normal=True)
+    return _Track(_for_roller(outline, 0.0, turned, sigma), turned, sigma, base, upwards, stand, by_normal=True)
 
 
-def _for_roller(outline: ArcOutline, roller: float, turned: complex, sigma: int) -> list[OutlineArc]:
+def _for_roller(outline: ArcOutline | ArcLoop, roller: float, turned: complex, sigma: int) -> list[OutlineArc]:
     """The arcs for the trace point of a roller, where they lie at phi = 0."""
-    if outline.flank_radius < 0 and not roller < -outline.flank_radius:
-        limit = say("less than {most:g} mm, the radius of the hollow flank", most=-outline.flank_radius)
+    hollow = max((arc.radius for arc in outline.arcs(sigma) if arc.radius < 0), default=-math.inf)
+    if not roller < -hollow:
+        limit = say("less than {most:g} mm, the radius of the hollow flank", most=-hollow)
         raise DesignError(say("roller radius"), roller, limit, say("take a smaller roller or a flatter flank"))
-    return [_placed(arc, turned, sigma, roller) for arc in outline.arcs()]
+    return [_placed(arc, turned, sigma, roller) for arc in outline.arcs(sigma)]
+
+
+def _seen(z: complex, sigma: int) -> complex:
+    return z if sigma > 0 else z.conjugate()
 
 
 def _placed(arc: OutlineArc, turned: complex, sigma: int, roller: float) -> OutlineArc:
     """The arc for the trace point of a roller, seen at phi = 0; of a cam that turns clockwise its mirror image."""
 
     def seen(z: complex) -> complex:
-        return turned * (z if sigma > 0 else z.conjugate())
+        return turned * _seen(z, sigma)
 
     point, outward = seen(arc.point + roller * arc.outward), seen(arc.outward)
     return OutlineArc(seen(arc.centre), arc.radius + roller, seen(arc.normal), point, outward)

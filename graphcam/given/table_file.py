@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -29,31 +30,23 @@ from graphcam.given.measured import (
 )
 from graphcam.given.plausible_ranges import PLAUSIBLE_RANGES, UNIT_REMEDY
 from graphcam.given.point_outline import cam_through_points
+from graphcam.typed_words import names_of, plain
 from graphcam.words import say
 
 Column = Literal["s_mm", "s_deg", "a", "outline"]
-ANGLE_COLUMNS = {"phi_deg": 1.0, "phi_rad": math.degrees(1)}
-"""Heads of the cam angles, and the degrees of their unit."""
-VALUE_COLUMNS: dict[str, tuple[Column, float]] = {
-    "s_mm": ("s_mm", 1.0),
-    "s_deg": ("s_deg", 1.0),
-    "a": ("a", 1.0),
-    "s_in": ("s_mm", 25.4),
-    "s_thou": ("s_mm", 0.0254),
+_LENGTHS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 1e-3, "in": 25.4, "mil": 0.0254, "thou": 0.0254}
+_ANGLES = {"deg": 1.0, "rad": math.degrees(1)}
+UNITS: dict[str, dict[str, float]] = {
+    **dict.fromkeys(("x", "y", "radius"), _LENGTHS | {"": 1.0}),
+    "angle": _ANGLES | {"": 1.0},
+    "lift": _LENGTHS | _ANGLES,
+    "a": {"": 1.0},
 }
-"""Heads of the values: what they are, and the mm (or degrees) of their unit; "thou" are thousandths of an inch."""
-OUTLINE_COLUMNS: dict[tuple[str, str], tuple[float, float]] = {
-    ("x_mm", "y_mm"): (1.0, 1.0),
-    ("x", "y"): (1.0, 1.0),
-    ("x_in", "y_in"): (25.4, 25.4),
-    ("angle_deg", "radius_mm"): (1.0, 1.0),
-    ("angle", "radius"): (1.0, 1.0),
-    ("angle_rad", "radius_mm"): (math.degrees(1), 1.0),
-    ("angle_deg", "radius_in"): (1.0, 25.4),
-}
-"""Heads of points of a cam's outline: the mm, or degrees, of their units."""
-_HEADERS = ", ".join(f"'phi_deg,{column}'" for column in VALUE_COLUMNS)
-_OUTLINE_HEADERS = ", ".join(f"'{','.join(names)}'" for names in OUTLINE_COLUMNS)
+"""What a column has, and its units in mm or degrees; without one it is in mm or degrees."""
+_HEAD = re.compile(r"(.+?)(?:(?:\s*[\[(]|[\s_,]+)([^\s_,()\[\]]+)[\])]?)?")
+"""A name, and a unit behind it or in brackets."""
+_HEADERS = "phi_deg,s_mm", "phi_deg,s_deg", "phi_deg,a", "x_mm,y_mm", "angle_deg,radius_mm"
+"""Heads of tables, for a message; any unit may stand in place of these."""
 _MAX_VALUES: dict[Column, float] = {
     "s_mm": PLAUSIBLE_RANGES["mm"][1],
     "s_deg": PLAUSIBLE_RANGES["degrees"][1],
@@ -65,8 +58,6 @@ ANGLE_CLOSURE = 1e-9
 """Angles that differ by no more [degrees] are the same."""
 MISSING_VALUES = "n/a", "na", "nan", "null", "none", "-", "--", "#n/a", "?"
 """What stands in a table for a value that was not measured."""
-_FIRST_ROW = 2
-"""Line of the first row, below the header."""
 
 
 @dataclass(frozen=True)
@@ -174,10 +165,13 @@ def table_from_text(
     ((0.0, 0.0), (15.0, 1.0))
     """
     lines = text.rstrip().splitlines()
-    header = lines[0] if lines else ""
+    # What programs write about the measurement stands above the header.
+    before = next((k for k, line in enumerate(lines) if line.strip() and line[0] not in "#%"), 0)
+    header, first_row = lines[before] if lines else "", before + 2
     between = next((sign for sign in ";\t" if sign in header), ",")
-    heads = _heads(path, header, between)
-    rows = tuple(_row(path, number, line, heads, between) for number, line in enumerate(lines[1:], _FIRST_ROW))
+    heads = _heads(path, before + 1, header, between)
+    below = enumerate(lines[before + 1 :], first_row)
+    rows = tuple(_row(path, number, line, heads, between) for number, line in below)
     phi, values = np.array(rows).reshape(-1, 2).T
     try:
         if heads.column == "outline":
@@ -187,7 +181,7 @@ def table_from_text(
             phi, values = turn(phi, values)
             check_rows(np.radians(phi), values, closes_to)
     except RowError as error:
-        number = min(error.row, max(len(rows) - 1, 0)) + _FIRST_ROW
+        number = min(error.row, max(len(rows) - 1, 0)) + first_row
         line = say("line {number}: {quantity}", number=number, quantity=error.args[0])
         raise TaskError(path, line, *error.args[1:]) from None
     except DesignError as error:
@@ -203,38 +197,58 @@ def _text(path: Path) -> str:
     return decoded_text(path, say("the table"), content, say("a CSV file in UTF-8"), say("save it as CSV UTF-8"))
 
 
+class _Head(NamedTuple):
+    """The head of a column as it stands, what the column has, empty where that is not known, and its unit."""
+
+    text: str
+    column: str
+    unit: str
+
+
 class _Heads(NamedTuple):
     """The heads of a table: their names, what the values are, and the degrees or mm of their units.
 
-    columns : where the two stand, and how many there are
+    columns : where the two stand, and how many there are;  polar : whether points are given by angle and radius
     """
 
     names: tuple[str, str]
     column: Column
     factors: tuple[float, float]
-    columns: tuple[int, int, int] = (0, 1, 2)
-
-    @property
-    def polar(self) -> bool:
-        """Whether points of an outline are given by angle and radius."""
-        return self.column == "outline" and self.names[0].startswith("angle")
+    columns: tuple[int, int, int]
+    polar: bool = False
 
 
-def _heads(path: str, header: str, between: str) -> _Heads:
-    found = [cell.lower() for cell in _cells(header, between)]
-    match found:
-        case [first, second] if first in ANGLE_COLUMNS and second in VALUE_COLUMNS:
-            column, factor = VALUE_COLUMNS[second]
-            return _Heads((first, second), column, (ANGLE_COLUMNS[first], factor))
-        case _:
-            pass
-    for names, factors in OUTLINE_COLUMNS.items():
+def _head(text: str) -> _Head:
+    """The head of a column, in the words and units that people type.
+
+    >>> _head("X (mm)")[1:], _head("phi_deg")[1:], _head("Hub [mm]")[1:], _head("Winkel")[1:], _head("y_mm per rad")[1:]
+    (('x', 'mm'), ('angle', 'deg'), ('lift', 'mm'), ('angle', ''), ('', ''))
+    """
+    for parts in ((text, ""), (match := _HEAD.fullmatch(text)) and match.groups("")):
+        if parts and (name := next(iter(names_of(parts[0], "columns")), plain(parts[0]))) in UNITS:
+            unit = next(iter(names_of(parts[1], "units")), parts[1].lower())
+            if unit in UNITS[name]:
+                return _Head(text, name, unit)
+    return _Head(text, "", "")
+
+
+def _heads(path: str, number: int, header: str, between: str) -> _Heads:
+    found = [_head(cell) for cell in _cells(header, between)]
+    named = [head.column for head in found]
+    for names in (("x", "y"), ("angle", "radius"), ("angle", "lift"), ("angle", "a")):
+        outline = names[1] in ("y", "radius")
         # Programs that write points have further columns, as z or the number of the point.
-        if all(found.count(name) == 1 for name in names):
-            places = found.index(names[0]), found.index(names[1])
-            return _Heads(names, "outline", factors, (*places, len(found)))
-    expected = say("one of {headers}", headers=f"{_HEADERS}; {_OUTLINE_HEADERS}")
-    raise TaskError(path, say("line 1"), _short_line(header), expected, say("name the two columns of the table"))
+        if all(named.count(name) == 1 for name in names) and (outline or len(found) == 2):
+            places = named.index(names[0]), named.index(names[1])
+            first, second = (found[k] for k in places)
+            of_arm: Column = "s_deg" if second.unit in _ANGLES else "s_mm"
+            column: Column = "outline" if outline else "a" if second.column == "a" else of_arm
+            factors = UNITS[first.column][first.unit], UNITS[second.column][second.unit]
+            return _Heads((first.text, second.text), column, factors, (*places, len(found)), names[0] == "angle")
+    expected = say("one of {headers}", headers=", ".join(f"'{head}'" for head in _HEADERS))
+    line = say("line {number}", number=number)
+    remedy = say("name the two columns of the table, with their units: mm, cm, in, thou, deg, rad")
+    raise TaskError(path, line, _short_line(header), expected, remedy)
 
 
 def _cells(line: str, between: str) -> list[str]:
@@ -266,7 +280,7 @@ def _row(path: str, number: int, line: str, heads: _Heads, between: str) -> tupl
         most = say("at most {most:.15g}", most=_MAX_VALUES[heads.column] / factor)
         raise TaskError(path, what, second, most, UNIT_REMEDY)
     first, second = first * heads.factors[0], second * factor
-    if heads.polar:
+    if heads.column == "outline" and heads.polar:
         angle = math.radians(first)
         return second * math.cos(angle), second * math.sin(angle)
     return first, second

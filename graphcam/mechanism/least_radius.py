@@ -25,6 +25,7 @@ from graphcam.given.follower import (
     OscillatingFlat,
     Rotation,
     Translating,
+    no_prime_radius,
     sense,
 )
 from graphcam.given.motion import Motion
@@ -89,10 +90,7 @@ def _sharp_enough(
         kept, radius = False, math.inf
     if kept:
         return replace(least, prime_radius=radius, active=("curvature",))
-    limit = say("so small that some prime radius has it within the permitted pressure angles at {place}")
-    at = say("a centre distance of {distance:g} mm", distance=least.place)
-    remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
-    raise DesignError(say("minimum radius of curvature"), curvature, limit.with_values(place=at), remedy)
+    raise no_prime_radius(say("minimum radius of curvature"), curvature, say("take a smaller roller"))
 
 
 def _first_without(excess: Callable[[float], float], radius: float, most: float) -> float | None:

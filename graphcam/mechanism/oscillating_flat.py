@@ -395,6 +395,8 @@ def oscillating_flat_minimum_radius(
         rho = found.convex_radius(highest_places(motion, found.sharpness).values).min()
         if rho >= least - CURVATURE_TOLERANCE * c:
             return FlatMinimumRadius(radius, ("curvature",))
-    limit = say("so small that some prime radius has it at a centre distance of {distance:g} mm", distance=c)
     remedy = say("lengthen the centre distance, swing less, or in a larger cam angle")
+    if not least:
+        raise DesignError(say("centre distance"), c, say("so long that some prime radius gives a convex cam"), remedy)
+    limit = say("so small that some prime radius has it at a centre distance of {distance:g} mm", distance=c)
     raise DesignError(say("minimum radius of curvature"), least, limit, remedy)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphcam.errors import DesignError, LetteringWarning, suggestion
 from graphcam.files import digest, whole_folder
+from graphcam.mechanism.profile_spline import profile_spline
 from graphcam.report.documents import contents_of, drawing_of, note_of, note_page_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
@@ -104,7 +105,9 @@ def write(
     _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
     part = _checked_part(solution) if working_drawing else None
     finished, report = upto is None, progress or ignore_progress
-    wanted = _wanted_kinds(files, finished=finished, working_drawing=working_drawing)
+    # Solid and program are of the edge of a disk, not of a groove.
+    cutting = CUTTING_KINDS if part and part.given.groove_depth is None else ()
+    wanted = _wanted_kinds(files, finished=finished, usual=(*DEFAULT_KINDS, *cutting))
     written: dict[str, str | None] = dict.fromkeys(FILE_KINDS)
     contents = contents_of(solution)
     with whole_folder(directory, written_before(Path(directory), SOLUTION_FILE)) as folder:
@@ -131,8 +134,7 @@ def write(
     return written
 
 
-def _wanted_kinds(files: Collection[str] | None, *, finished: bool, working_drawing: bool) -> list[str]:
-    usual = (*DEFAULT_KINDS, *CUTTING_KINDS) if working_drawing else DEFAULT_KINDS
+def _wanted_kinds(files: Collection[str] | None, *, finished: bool, usual: Collection[str]) -> list[str]:
     # What is not a sheet holds answers.
     return [kind for kind in (usual if files is None else files) if finished or kind in SHEET_KINDS]
 
@@ -195,7 +197,7 @@ def _write_profiles(
         return {}, {}
     try:
         spline = solution.profile_spline if "profile_dxf" in wanted else None
-        names = write_curves(solution.cam, spline, folder, wanted)
+        names = write_curves(solution.cam, spline, folder, wanted) | _write_other_curves(solution, folder, wanted)
     except DesignError as error:
         # Where nothing can be cut the solution warns of it; what was asked for is refused.
         if error.quantity.startswith("part."):
@@ -205,6 +207,22 @@ def _write_profiles(
         return names, {}
     told = {"degree": spline.degree, "control_points": len(spline.control), "deviation": spline.deviation}
     return names, {"profile_spline": told}
+
+
+def _write_other_curves(solution: Solution, folder: Path, wanted: Collection[str]) -> dict[str, str]:
+    """Write the wanted files of a groove's outer wall, or of a second cam; returns the file names by kind."""
+    part = solution.task.part
+    if part is None or (part.groove_depth is None and part.second_roller is None):
+        return {}
+    from graphcam.workshop.part_contents import PartContents, second_cam
+
+    _ = PartContents(solution).groove  # says what does not fit
+    second = second_cam(solution)
+    curve, side = ("second", "inner") if second else ("outer", "outer")
+    cam = second or solution.cam
+    spline = profile_spline(cam, trimmed=True, side=side).turned(cam.table_turn) if "profile_dxf" in wanted else None
+    names = write_curves(cam, spline, folder, wanted, curve)
+    return {kind.replace("profile", f"profile_{curve}"): name for kind, name in names.items()}
 
 
 def _write_cutting(

@@ -8,6 +8,7 @@ from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, sense_caption
 from graphcam.constructions.law_names import LAW_TITLES, law_title
 from graphcam.drafting.scale import printed_unit, unit
+from graphcam.given.arc_loop import ArcLoop
 from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
@@ -182,9 +183,17 @@ def _by_conditions(solution: Solution) -> list[Row]:
 
 def _given_cam(solution: Solution) -> list[Row]:
     """Rows on the radii of a given cam; the one that follows from the others is found."""
-    motion, radii = solution.chain.board.motion, solution.task.motion.radii
-    if radii is None or not isinstance(motion, OutlineMotion):
+    motion, radii, table = solution.chain.board.motion, solution.task.motion.radii, solution.task.motion.table
+    if not isinstance(motion, OutlineMotion):
         return []
+    if isinstance(motion.outline, ArcLoop) or radii is None:
+        radius = [abs(arc.radius) for arc in motion.outline.arcs()]
+        lengths = sequence([mm(r) if math.isfinite(r) else say("straight") for r in radius], ", ")
+        return [
+            (say("points of the cam"), table.file if table else "", GIVEN_LABEL),
+            (say("radii of its parts"), lengths, FOUND_LABEL),
+            (say("cam angle 0 of the table at"), degrees(-motion.zero), ""),
+        ]
     cam, given = motion.outline, vars(radii)
     base: Row = say("base radius"), mm(cam.base_radius), GIVEN_LABEL
     nose: Row = say("nose radius"), mm(cam.nose_radius), GIVEN_LABEL if given["nose_radius"] else FOUND_LABEL

@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
+from graphcam.given.arc_loop import arc_loop
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
 from graphcam.given.cam_by_radii import ArcOutline, Straight, cam_by_radii
@@ -395,7 +396,11 @@ def _of_given_cam(
 ) -> GivenCamMotion:
     if isinstance(cam, RadiiTable):
         return outline_motion(cam(), follower, rotation)
-    return outline_motion(cam_through_points(cam.rows), follower, rotation, tolerance)
+    outline = cam_through_points(cam.rows)
+    loop = arc_loop(outline.points) if tolerance is None or tolerance > 0 else None
+    if loop is not None:
+        return outline_motion(loop, follower, rotation)
+    return outline_motion(outline, follower, rotation, tolerance)
 
 
 @lru_cache(maxsize=16)

@@ -6,6 +6,7 @@ import numpy as np
 
 from graphcam.dxf_curves import Points, joined_curves, read_layers
 from graphcam.errors import DesignError, TaskError, UnreadableError, unreadable_error
+from graphcam.given.arc_loop import arc_loop
 from graphcam.given.point_outline import MAX_POINTS, cam_through_points
 from graphcam.given.table_file import CurveTable
 from graphcam.words import Caption, say, sequence
@@ -45,8 +46,9 @@ def outline_from_dxf(path: Path, name: str, layer: str | None) -> CurveTable:
         raise _not_one(path, curves, loops)
     corners = loops[0][1][:-1]
     _check_smooth(path, corners)
-    rows = _dense(corners)
     try:
+        on_arcs = arc_loop(cam_through_points(corners).points) is not None
+        rows = corners if on_arcs else _dense(corners)
         cam_through_points(rows)
     except DesignError as error:
         raise TaskError(str(path), *error.args) from None

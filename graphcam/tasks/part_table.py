@@ -5,7 +5,7 @@ from typing import Literal
 
 from graphcam.errors import DesignError
 from graphcam.tasks.number_limits import check_limits
-from graphcam.tasks.units import Density, Feed, Roughness, Size
+from graphcam.tasks.units import Density, Feed, Length, Roughness, Size
 from graphcam.words import say
 
 Keyway = Literal["din6885", "gost23360", "none"]
@@ -25,6 +25,10 @@ class PartTable:
     width : mm, of the cam; left out: 0.8 of the bore, in round millimetres
     hub_diameter : mm, of a hub on one side; leave out both for a plain disk
     hub_length : mm over all, the cam's width included
+    groove_depth : mm, of a groove in the face of a disk, in which the roller runs; left out: it runs on the edge
+    second_roller : mm, [x, y] of the centre of a roller that holds the follower back on a second cam, with the follower
+        lowest: from the cam centre, a stem along y, an arm's pivot on x; left out: one cam
+    second_roller_radius : mm; left out: that of the first
     material : left out: carbon steel C45, in a gost frame by its Russian name
     density : kg/m^3, for the mass
     hardness : of the profile; "" if it is not hardened
@@ -57,6 +61,9 @@ class PartTable:
     width: Size | None = None
     hub_diameter: Size | None = None
     hub_length: Size | None = None
+    groove_depth: Size | None = None
+    second_roller: tuple[Length, Length] | None = None
+    second_roller_radius: Size | None = None
     material: str | None = None
     density: Density = 7850.0
     hardness: str = "45...50 HRC"
@@ -76,11 +83,21 @@ class PartTable:
         check_limits(self)
         self._check_words()
         self._check_hub()
+        self._check_second()
 
     def _check_words(self) -> None:
         for name in ("name", "number", "material", "hardness", "hardness_depth"):
             if not (text := getattr(self, name) or "").isprintable():
                 raise DesignError(name, text, say("printable text on one line"))
+
+    def _check_second(self) -> None:
+        """Refuse a second roller beside a groove, which holds the follower itself, or one that is nowhere."""
+        if self.second_roller_radius is not None and self.second_roller is None:
+            limit = say("left out where there is no {there}", there="second_roller")
+            raise DesignError("second_roller_radius", self.second_roller_radius, limit, say("give its place too"))
+        if self.second_roller is not None and self.groove_depth is not None:
+            limit = say("left out where there is {there}", there="groove_depth")
+            raise DesignError("second_roller", say("given"), limit, say("a groove holds the roller on both sides"))
 
     def _check_hub(self) -> None:
         """Refuse a hub with one size alone, or one that does not reach beyond what it surrounds."""

@@ -68,6 +68,8 @@ LISTS = "phases", "parts"
 """The lists of tables in a file; an error about one of their keys from outside is shown beside the whole list."""
 OUTLINE_KEYS = tuple(each.name for each in dataclasses.fields(motion_tables.OutlineTable))
 """The keys of a table ``[outline]``, which stands for a motion with the table of a given cam."""
+_RADII_KEYS = {each.name for each in dataclasses.fields(motion_tables.RadiiTable)} - {"dwell"}
+"""The keys by which a table ``[arcs]`` gives a cam by its radii, and not by its points."""
 _MAX_SHOWN_LENGTH = 60
 """The maximum number of characters of a value in a message."""
 
@@ -310,7 +312,7 @@ def _task(path: str, data: dict[str, Any], whole: dict[str, Any], read: ReadToml
     if isinstance(data.get("answers"), list):
         raise TaskError(path, say("the file"), say("an exercise"), expected, say("'graphcam exercise make' takes it"))
     arcs = data.get("arcs")
-    if isinstance(arcs, dict) and "base_radius" in arcs:
+    if isinstance(arcs, dict) and arcs.keys() & _RADII_KEYS:
         if "D" in arcs:
             limit = say("given by radii or by points, not by both")
             raise TaskError(path, "arcs", say("with base_radius and D"), limit, say("delete one of the two"))

@@ -7,8 +7,10 @@ from collections.abc import Collection
 from pathlib import Path
 
 from graphcam import __version__
+from graphcam.errors import DesignError
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.tasks.part_table import PartTable
+from graphcam.words import say
 from graphcam.workshop.cam_part import CamPart, profile_tolerance
 from graphcam.workshop.cutter_path import MIN_TOLERANCE, cutter_path, cutting_program
 from graphcam.workshop.part_contents import PartContents
@@ -45,8 +47,17 @@ def solid_text(contents: PartContents) -> str:
     >>> solid_text(PartContents(gc.solve(gc.builtin_arcs_task()))).count("CYLINDRICAL_SURFACE")
     12
     """
+    _check_edge(contents)
     around, near = _outline_loop(contents)
     return solid_around(around, near, contents.part, contents.outline.zero, contents.solution.task.title.name)
+
+
+def _check_edge(contents: PartContents) -> None:
+    """Refuse a groove: solid and program are of the edge of a disk."""
+    if contents.given.groove_depth is not None:
+        limit = say("left out for a solid or a program")
+        remedy = say("make the groove from profile.dxf and profile-outer.dxf")
+        raise DesignError("part.groove_depth", contents.given.groove_depth, limit, remedy)
 
 
 def solid_around(around: Loop, near: float, part: CamPart, zero: float, name: str) -> str:
@@ -71,6 +82,7 @@ def program_text(contents: PartContents) -> str:
     >>> program_text(PartContents(gc.solve(gc.builtin_task()))).splitlines()[3]
     '(TOLERANCE 0.005 MM, GREATEST DISTANCE FROM THE EXACT WAY 0.0050 MM)'
     """
+    _check_edge(contents)
     return program_around(contents.outline, contents.given, contents.solution.task.title.name)
 
 

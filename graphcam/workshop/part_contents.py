@@ -11,13 +11,15 @@ from graphcam.constructions.axes import degrees, sense_caption
 from graphcam.drafting.scale import ratio_text
 from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.conjugate_cam import ConjugateCam
 from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import Caption, Tell, Words, say
 from graphcam.workshop.cam_part import CamPart, cam_part, radius_decimals
-from graphcam.workshop.part_outline import Outline, outline_of
+from graphcam.workshop.part_outline import Groove, Outline, of_cam, outline_of
 from graphcam.workshop.part_views import size
 from graphcam.workshop.polar_table import PolarTable, polar_table
 
@@ -28,6 +30,8 @@ class PartContents:
 
     Each is computed when it is first used, since the G-code needs no bore, and the solid no table.
 
+    second : whether it is the second cam of a conjugate pair
+
     >>> import graphcam as gc
     >>> contents = PartContents(gc.solve(gc.builtin_task()))
     >>> contents.part.bore, contents.table.bound
@@ -35,6 +39,7 @@ class PartContents:
     """
 
     solution: AnySolution
+    second: bool = False
 
     @property
     def given(self) -> PartTable:
@@ -43,13 +48,41 @@ class PartContents:
 
     @cached_property
     def outline(self) -> Outline:
-        """The exact profile.
+        """The exact profile; the second cam of a pair has the zero mark of the first, so that one key times both.
 
         Raises
         ------
         DesignError : no profile can be cut
         """
-        return outline_of(self.solution)
+        first = outline_of(self.solution)
+        second = second_cam(self.solution) if self.second else None
+        return replace(of_cam(second), zero=first.zero) if second else first
+
+    @cached_property
+    def groove(self) -> Groove | None:
+        """The groove in which the roller runs, if the task gives one.
+
+        Raises
+        ------
+        DesignError : there is no roller, or none that fits the hollows of its path
+        """
+        if self.given.groove_depth is None:
+            return None
+        cam = _cam_with_roller(self.solution, "part.groove_depth")
+        return Groove(self.given.groove_depth, replace(of_cam(cam, cam.outer_wall), zero=self.outline.zero))
+
+    @property
+    def reach(self) -> float:
+        """The maximum radius of the part [mm]."""
+        return self.groove.disk_radius if self.groove else self.outline.greatest_radius
+
+    @property
+    def mass(self) -> float:
+        """The mass of the part [kg]."""
+        if self.groove is None:
+            return self.part.mass(self.outline.area)
+        hollow = (self.groove.wall.area - self.outline.area) * self.groove.depth * self.given.density * 1e-9
+        return self.part.mass(math.pi * self.groove.disk_radius**2) - hollow
 
     @cached_property
     def part(self) -> CamPart:
@@ -59,7 +92,13 @@ class PartContents:
         ------
         DesignError : the part is impossible
         """
-        return cam_part(self.given, self.frame, self.outline.least_radius)
+        # Both cams of a pair stand on one shaft.
+        pair = [self, replace(self, second=not self.second)] if self.given.second_roller else [self]
+        part = cam_part(self.given, self.frame, min(each.outline.least_radius for each in pair))
+        if self.groove and not self.groove.depth < part.width:
+            limit = say("less than the cam's width of {width:g} mm", width=part.width)
+            raise DesignError("part.groove_depth", self.groove.depth, limit, say("give a larger part.width"))
+        return part
 
     @cached_property
     def table(self) -> PolarTable:
@@ -69,7 +108,7 @@ class PartContents:
         ------
         DesignError : as for :func:`~graphcam.workshop.polar_table.polar_table`
         """
-        return polar_table(self.outline, self.given)
+        return polar_table(self.outline, self.given, self.groove and self.groove.wall)
 
     @property
     def frame(self) -> str:
@@ -89,21 +128,23 @@ class PartContents:
         DesignError : as for outline, part and table, or it weighs next to nothing
         """
         _ = self.part, self.table
-        if (mass := self.part.mass(self.outline.area)) < MIN_MASS:
+        if self.mass < MIN_MASS:
             limit = say("at least {least:g} kg", least=MIN_MASS)
-            found = say("{mass:.1g} kg", mass=mass)
+            found = say("{mass:.1g} kg", mass=self.mass)
             raise DesignError(say("mass of the cam"), found, limit, say("check the units of its sizes"))
+        if self.given.second_roller is not None and not self.second:
+            replace(self, second=True).check()
 
     def title(self, scale: float) -> TitleBlock:
         """The title block of the part, with the drawing's scale."""
         given, tell = self.solution.task.title, self.tell
-        mass = self.part.mass(self.outline.area)
+        mass, usual = self.mass, say("Second cam") if self.second else say("Cam")
         # Three digits at least, and no powers of ten.
         decimals = max(0, 2 - math.floor(math.log10(mass)))
         told = say("{mass:.{decimals}f}") if self.frame == "gost" else say("{mass:.{decimals}f} kg")
         return TitleBlock(
-            name=self.given.name or tell(say("Cam")),
-            number=self.given.number or "",
+            name=f"{self.given.name} 2" if self.given.name and self.second else self.given.name or tell(usual),
+            number=f"{self.given.number}-2" if self.given.number and self.second else self.given.number or "",
             table="part",
             organisation=given.organisation,
             group=given.group,
@@ -132,28 +173,55 @@ MAX_PHASES = 8
 PHASE_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
 
 
-def requirements(
-    solution: AnySolution, part: CamPart, outline: Outline, table: PolarTable, frame: str
-) -> list[Caption]:
+def second_cam(solution: AnySolution) -> ConjugateCam | None:
+    """The second cam of a conjugate pair, if the task's part names its roller.
+
+    Raises
+    ------
+    DesignError : the follower has no roller, or the second one does not hold it back, or is too large
+    """
+    given = solution.task.part or PartTable()
+    if given.second_roller is None:
+        return None
+    cam = _cam_with_roller(solution, "part.second_roller")
+    radius = cam.roller_radius if given.second_roller_radius is None else given.second_roller_radius
+    try:
+        return ConjugateCam(cam, given.second_roller, radius)
+    except DesignError as error:
+        name = {"at": "part.second_roller", "roller_radius": "part.second_roller_radius"}[error.quantity]
+        raise DesignError(name, *error.args[1:]) from None
+
+
+def _cam_with_roller(solution: AnySolution, key: str) -> Cam:
+    """The cam of a solution whose follower has a roller; the key of the part is of no use without one."""
+    if isinstance(solution, ArcsSolution) or not solution.cam.roller_radius:
+        limit = say("left out, except for a cam with a roller that is given by a motion")
+        raise DesignError(key, say("given"), limit, say("delete it"))
+    return solution.cam
+
+
+def requirements(contents: PartContents) -> list[Caption]:
     """The technical requirements: the notes above the title block."""
+    part, outline = contents.part, contents.outline
     return [
-        *([REFERENCE_NOTE] if frame == "gost" else []),
+        *([REFERENCE_NOTE] if contents.frame == "gost" else []),
         *_hardness(part),
-        GENERAL_TOLERANCES[frame],
+        GENERAL_TOLERANCES[contents.frame],
         say("Break sharp edges 0.3 × 45°, not the corners of the profile.")
         if outline.corners
         else say("Break sharp edges 0.3 × 45°."),
         *_keyway(part),
         say("Both ends of the bore are chamfered {chamfer} × 45°.", chamfer=size(part.chamfer)),
-        _zero(part, outline),
+        _zero(contents),
+        *_groove(contents),
         say("θ is counted against the rotation, so the follower meets the profile in the order of the table."),
         say(
             "The radii of the table are exact: computed, not measured on a drawing. Interpolated linearly, they "
             "are within {bound:g} mm of the exact profile before rounding.",
-            bound=round(table.bound, 6),
+            bound=round(contents.table.bound, 6),
         ),
         *_cutter(part),
-        _contact_caption(solution),
+        _contact_caption(contents),
         *([say("The profile is the part that can be cut: an undercut leaves a corner.")] if outline.corners else []),
         say(
             "In the files of the profile the zero mark lies at {angle} from the x axis.",
@@ -179,7 +247,13 @@ def _keyway(part: CamPart) -> list[Caption]:
     return [said.with_values(standard=part.key_standard, b=b, h=h, least=least, most=most)]
 
 
-def _zero(part: CamPart, outline: Outline) -> Caption:
+def _zero(contents: PartContents) -> Caption:
+    part, outline = contents.part, contents.outline
+    if contents.second:
+        return say(
+            "The zero mark, θ = 0°, is scribed on the face where that of the first cam stands, so that one key, or one "
+            "mark, times both cams; the second roller lies elsewhere."
+        )
     if not outline.zero_met:
         return say(
             "The zero mark, θ = 0°, is scribed on the face, over the middle of a keyway; the point at which the "
@@ -193,6 +267,16 @@ def _zero(part: CamPart, outline: Outline) -> Caption:
     )
 
 
+def _groove(contents: PartContents) -> list[Caption]:
+    if contents.groove is None:
+        return []
+    told = say(
+        "The roller runs in a groove {depth} mm deep: r is the radius of its inner wall and r₂ that of its outer wall "
+        "at the same θ. Tolerance, roughness and hardness of the profile hold for both walls."
+    )
+    return [told.with_values(depth=size(contents.groove.depth))]
+
+
 def _cutter(part: CamPart) -> list[Caption]:
     radius = part.table.cutter_radius
     if radius is None:
@@ -201,22 +285,31 @@ def _cutter(part: CamPart) -> list[Caption]:
     return [told]
 
 
-def _contact_caption(solution: AnySolution) -> Caption:
+def _roller(contents: PartContents) -> float:
+    """The radius of the roller on this cam [mm]."""
+    second = second_cam(contents.solution) if contents.second else None
+    solution = contents.solution
+    own = solution.motion if isinstance(solution, ArcsSolution) else solution.cam
+    return second.roller_radius if second else own.roller_radius
+
+
+def _contact_caption(contents: PartContents) -> Caption:
+    solution = contents.solution
     if not isinstance(solution, ArcsSolution) and not solution.cam.kinematics.takes_roller:
         return say("The profile works with a flat-faced follower.")
-    roller = solution.motion.roller_radius if isinstance(solution, ArcsSolution) else solution.cam.roller_radius
-    if not roller:
+    if not (roller := _roller(contents)):
         return say("The profile works with a knife edge.")
     return say("The profile works with a roller of radius {radius} mm, and with no other.", radius=size(roller))
 
 
-def cam_data(solution: AnySolution, outline: Outline) -> Table:
+def cam_data(contents: PartContents) -> Table:
     """The table of the cam's data that the profile depends on."""
-    rows: list[tuple[Words, Words]] = [*_sizes(solution)]
+    solution, outline = contents.solution, contents.outline
+    rows: list[tuple[Words, Words]] = [*_sizes(contents)]
     rows += [(say("lift"), _lift(solution)), (say("rotation"), sense_caption(_rotation(solution)))]
     if solution.task.speed_rpm:
         rows.append((say("speed"), say("{rpm:g} rpm", rpm=solution.task.speed_rpm)))
-    decimals = radius_decimals(solution.task.part or PartTable(), outline.greatest_radius)
+    decimals = radius_decimals(contents.given, outline.greatest_radius)
     rows.append((say("minimum radius of the profile"), _mm(round(outline.least_radius, decimals))))
     rows.append((say("maximum radius of the profile"), _mm(round(outline.greatest_radius, decimals))))
     timing = solution.motion.timing if isinstance(solution, ArcsSolution) else solution.cam.motion.timing
@@ -246,7 +339,11 @@ def _lift(solution: AnySolution) -> Words:
     return _mm(solution.cam.motion.lift)
 
 
-def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
+def _sizes(contents: PartContents) -> list[tuple[Words, Words]]:
+    solution = contents.solution
+    if contents.second and (second := second_cam(solution)):
+        at = say("({x}, {y}) mm", x=size(second.at[0]), y=size(second.at[1]))
+        return [(say("second roller, with the follower lowest"), at), (say("roller radius"), _mm(second.roller_radius))]
     if isinstance(solution, ArcsSolution):
         motion = solution.motion
         return [(say("prime radius r₀"), _mm(motion.prime_radius)), (say("roller radius"), _mm(motion.roller_radius))]
@@ -257,11 +354,14 @@ def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
 
 def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
     """The rows of the polar table, the head first, in the language of the drawing."""
-    columns = [table.radii] if table.cutter is None else [table.radii, table.cutter]
-    told = [[tell(_angle(angle)) for angle in table.angles]]
-    told += [[tell(_radius(radius, table.decimals)) for radius in radii] for radii in columns]
-    head = tuple(tell(name) for name in ("θ", "r", "R")[: len(told)])
-    return [head, *zip(*told, strict=True)]
+    columns = {"r": table.radii, "r₂": table.wall, "R": table.cutter}
+    told = {"θ": [tell(_angle(angle)) for angle in table.angles]}
+    told |= {
+        name: [tell(_radius(radius, table.decimals)) for radius in radii]
+        for name, radii in columns.items()
+        if radii is not None
+    }
+    return [tuple(tell(name) for name in told), *zip(*told.values(), strict=True)]
 
 
 def side_by_side_table(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:

@@ -108,7 +108,7 @@ class PartTables:
 def part_tables(contents: PartContents, sheet: Format) -> PartTables:
     """The tables of a part in the letters of a sheet."""
     tell, height = contents.tell, sheet.lettering.small
-    told = [cam_data(contents.solution, contents.outline), *tolerance_data(contents.solution)]
+    told = [cam_data(contents), *tolerance_data(contents.solution)]
     data = tuple(table_block(each.translated(tell), height) for each in told)
     return PartTables(data, polar_rows(contents.table, tell), tell, height)
 
@@ -147,7 +147,7 @@ def part_layout(contents: PartContents) -> tuple[PartLayout, Placed | None]:
 
 def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -> Iterator[PartLayout]:
     """Layouts of the views at the standard scales at which they fit and the profile is large enough, largest first."""
-    width = 2 * contents.outline.greatest_radius
+    width = 2 * contents.reach
     for ratio in standard_ratios(MAX_PROFILE / width):
         if width * ratio < least_profile:
             return
@@ -156,7 +156,8 @@ def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -
 
 def _views(contents: PartContents, sheet: Format, ratio: float) -> Iterator[PartLayout]:
     """Layouts of the views at a scale, if they have room, with the bore as large as possible."""
-    shown = ShownPart(contents.part, sheet.frame, contents.outline, ratio, ratio, sheet.lettering, contents.tell)
+    part, outline, groove = contents.part, contents.outline, contents.groove
+    shown = ShownPart(part, sheet.frame, outline, groove, ratio, ratio, sheet.lettering, contents.tell)
     inside = sheet.content.grown(-FRAME_MARGIN)
     front, section = front_box(shown), section_box(shown)
     high = max(front.top, section.top)
@@ -194,8 +195,9 @@ def _is_free(room: Room, box: Box) -> bool:
 def _fixed(contents: PartContents, sheet: Format, shown: ShownPart) -> tuple[Placed, tuple[PartSymbol, complex]]:
     """The notes above the title block, and the roughness of all other faces where the frame's standard has it."""
     block, letters, inside = title_box(sheet), sheet.lettering, sheet.content.grown(-FRAME_MARGIN)
-    said = requirements(contents.solution, contents.part, contents.outline, contents.table, contents.frame)
-    notes = notes_block([contents.tell(note) for note in said], letters.small, block.width - FRAME_MARGIN)
+    notes = notes_block(
+        [contents.tell(note) for note in requirements(contents)], letters.small, block.width - FRAME_MARGIN
+    )
     corner = complex(block.left, block.top + FRAME_MARGIN) - notes.box.corner
     symbol = other_faces(contents.tell(say("Ra {ra:g}", ra=contents.part.table.roughness)), letters.label)
     if sheet.frame == "gost":

@@ -245,6 +245,22 @@ class Outline:
             raise DesignError("part.cutter_radius", radius, limit, remedy)
 
 
+@dataclass(frozen=True, eq=False)
+class Groove:
+    """A groove in the face of a disk, in which a roller runs: between the profile and an outer wall.
+
+    depth : mm;  wall : the outer wall, its angles counted as those of the profile
+    """
+
+    depth: float
+    wall: Outline
+
+    @property
+    def disk_radius(self) -> float:
+        """The radius of the disk [mm]: the rim is as thick as the groove is deep, to the next millimetre across."""
+        return math.ceil(2 * (self.wall.greatest_radius + self.depth)) / 2
+
+
 def outline_of(solution: AnySolution) -> Outline:
     """The outline of the cam of a solution.
 
@@ -255,8 +271,10 @@ def outline_of(solution: AnySolution) -> Outline:
     return _of_arcs(solution) if isinstance(solution, ArcsSolution) else of_cam(solution.cam)
 
 
-def of_cam(cam: Cam | ConjugateCam) -> Outline:
+def of_cam(cam: Cam | ConjugateCam, envelope: Envelope | None = None) -> Outline:
     """The outline of a cam, or of the second one of a conjugate pair.
+
+    envelope : that of another wall of the same cam; left out: of its profile
 
     Raises
     ------
@@ -270,7 +288,7 @@ def of_cam(cam: Cam | ConjugateCam) -> Outline:
     >>> round(outline.least_radius, 4), round(outline.greatest_radius, 4), round(outline.area, 1)
     (38.0, 67.6203, 9138.5)
     """
-    envelope, sense, turn = cam.envelope, -cam.sigma, cam.table_turn
+    envelope, sense, turn = envelope or cam.envelope, -cam.sigma, cam.table_turn
     lost = lost_parts(envelope)
     arcs = kept_arcs(envelope, lost)
     spans: list[Span] = []

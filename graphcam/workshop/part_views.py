@@ -8,11 +8,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from graphcam.drafting.marks import Arc, Circle, Dimension, Label, Line, Mark, Points, Region, Role, Segments
-from graphcam.given.laws import Floats
 from graphcam.given.limits_and_fits import KeySection, tolerance
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.label_candidates import LabelText, label_along
@@ -31,7 +31,7 @@ from graphcam.sheets.sampling import box_around
 from graphcam.sheets.text_measures import width
 from graphcam.words import Caption, Tell, Words, say, say_in
 from graphcam.workshop.cam_part import CamPart, radius_decimals
-from graphcam.workshop.part_outline import Outline
+from graphcam.workshop.part_outline import Groove, Outline
 
 FIRST_DIMENSION_OFFSET, DIMENSION_SPACING = 9.0, 8.0
 """Distances of the first dimension line from the view, and from each to the next [mm of paper]."""
@@ -41,6 +41,8 @@ ZERO_MARK_LENGTH = 6.0
 """The length of the zero mark [mm of paper]."""
 DRAWN_POINT_STEP = 12
 """The step at which dense points of the outline are taken for the drawn smooth curve, exact between them."""
+DISK_POINTS = 720
+"""The number of points on the edge of a disk with a groove, for finding room."""
 SHELF_OFFSET = 5.0
 """The distance from the left face of the section to the shelf of its chamfer [mm of paper]."""
 CUTTING_PLANE_OFFSET = 11.0
@@ -63,6 +65,7 @@ class ShownPart:
     part: CamPart
     frame: str
     outline: Outline
+    groove: Groove | None
     scale: float
     bore_scale: float
     letters: Lettering
@@ -78,20 +81,33 @@ class ShownPart:
         return self.paper(self.outline.points)
 
     @cached_property
+    def wall(self) -> Points:
+        """The outermost wall on which a roller runs (n,) on paper [mm]: of a groove the outer one, else the profile."""
+        return self.paper(self.groove.wall.points) if self.groove else self.profile
+
+    @cached_property
+    def contour(self) -> Points:
+        """The edge of the part (n,) on paper, about the axis [mm]: the profile, or the disk with the groove."""
+        if self.groove is None:
+            return self.profile
+        around: Points = np.exp(1j * np.linspace(0, 2 * math.pi, DISK_POINTS, endpoint=False))
+        return self.scale * self.groove.disk_radius * around
+
+    @cached_property
     def extent(self) -> Box:
-        """The box of the profile on paper, about the axis."""
-        return box_around(self.profile)
+        """The box of the part on paper, about the axis."""
+        return box_around(self.contour)
 
     def reach(self, start: float, sweep: float) -> float:
         """The maximum radius on paper [mm] between the directions ``start`` and ``start + sweep`` [rad]."""
         low, high = sorted((start, start + sweep))
-        turned = (np.angle(self.profile) - low) % (2 * math.pi)
+        turned = (np.angle(self.contour) - low) % (2 * math.pi)
         inside = turned <= high - low + 0.05
-        return float(np.abs(self.profile[inside]).max())
+        return float(np.abs(self.contour[inside]).max())
 
     def radius(self, direction: complex) -> float:
-        """The radius of the profile on paper [mm] in a direction."""
-        return float(np.interp(0.0, *self._about(direction)))
+        """The radius of the part on paper [mm] in a direction."""
+        return radius_of(self.contour, direction)
 
     def expanded(self, marks: Sequence[Mark], origin: complex) -> Drawn:
         """Entities of marks about a place, their texts in the language of the drawing."""
@@ -100,10 +116,12 @@ class ShownPart:
         ]
         return expand(told, Placement(origin), self.letters)
 
-    def _about(self, direction: complex) -> tuple[Floats, Floats]:
-        turned = np.angle(self.profile / direction)
-        order = np.argsort(turned)
-        return turned[order], np.abs(self.profile)[order]
+
+def radius_of(curve: Points, direction: complex) -> float:
+    """The radius of a dense curve (n,) round the axis in a direction."""
+    turned = np.angle(curve / direction)
+    order = np.argsort(turned)
+    return float(np.interp(0.0, turned[order], np.abs(curve)[order]))
 
 
 def size(length: float) -> Caption:
@@ -140,7 +158,8 @@ def _profile(shown: ShownPart, origin: complex) -> list[Entity]:
     points = origin + shown.profile
     if shown.outline.corners:
         return [Stroke(points, Role.RESULT, closed=True)]
-    return [Curve(points[::DRAWN_POINT_STEP], Role.RESULT)]
+    walls = [points, origin + shown.wall] if shown.groove else [points]
+    return [Curve(wall[::DRAWN_POINT_STEP], Role.RESULT) for wall in walls]
 
 
 def _front_marks(shown: ShownPart) -> list[Mark]:
@@ -154,6 +173,7 @@ def _front_marks(shown: ShownPart) -> list[Mark]:
         scribed,
         Label(1j * (up - ZERO_MARK_LENGTH), say("0°"), 1 - 0.3j),
         *([Circle(0j, shown.scale * hub.diameter / 2, Role.RESULT)] if hub else []),
+        *([Circle(0j, shown.radius(1j), Role.RESULT)] if shown.groove else []),
         *_detail_circle(shown),
     ]
 
@@ -252,9 +272,10 @@ def _sense_labels(shown: ShownPart) -> list[Mark]:
 def section_box(shown: ShownPart) -> Box:
     """The box of the section, about the axis on the left face."""
     box, part = shown.extent, shown.part
-    right = shown.scale * part.length + (FIRST_DIMENSION_OFFSET + DIMENSION_SPACING if part.hub else 0.0)
+    beside = FIRST_DIMENSION_OFFSET * (part.hub is not None) + DIMENSION_SPACING * (shown.groove is not None)
+    right = shown.scale * part.length + beside + (DIMENSION_SPACING if beside else 0.0)
     below = FIRST_DIMENSION_OFFSET + (DIMENSION_SPACING if part.hub else 0.0) + 4
-    return Box(-34, box.bottom - below, right + 20, box.top + 22)
+    return Box(-34, box.bottom - below, right + 20, box.top + (22 if shown.groove is None else 26))
 
 
 def section_view(shown: ShownPart, origin: complex) -> Drawn:
@@ -270,7 +291,7 @@ def section_view(shown: ShownPart, origin: complex) -> Drawn:
 
 def heights(shown: ShownPart) -> tuple[float, float, float, float]:
     """Heights on paper [mm]: the cut profile below and above the axis, and the profile seen behind it."""
-    behind = shown.profile[shown.profile.real >= 0]
+    behind = shown.contour[shown.contour.real >= 0]
     cut = -shown.radius(-1j), shown.radius(1j)
     return (*cut, min(float(behind.imag.min()), cut[0]), max(float(behind.imag.max()), cut[1]))
 
@@ -302,8 +323,22 @@ def _cut_edges(shown: ShownPart) -> list[Mark]:
         pairs += [(complex(0, rim), complex(c, edge)), (complex(end, rim), complex(end - c, edge))]
     else:
         pairs += [(complex(0, r + c), complex(c, r)), (complex(end, r + c), complex(end - c, r))]
+    for notch in _notches(shown):
+        pairs += pairwise(notch)
     starts, ends = zip(*pairs, strict=True)
     return [Segments(np.array(starts), np.array(ends), Role.RESULT)]
+
+
+def _notches(shown: ShownPart) -> list[list[complex]]:
+    """The groove in the section, above and below the axis, from its outer wall to its inner one; none without it."""
+    if shown.groove is None:
+        return []
+    face, bottom = shown.scale * shown.part.width, shown.scale * (shown.part.width - shown.groove.depth)
+    walls = [[way.imag * radius_of(wall, way) for wall in (shown.wall, shown.profile)] for way in (1j, -1j)]
+    return [
+        [complex(face, outer), complex(bottom, outer), complex(bottom, inner), complex(face, inner)]
+        for outer, inner in walls
+    ]
 
 
 def _cut_faces(shown: ShownPart) -> list[Mark]:
@@ -314,9 +349,11 @@ def _cut_faces(shown: ShownPart) -> list[Mark]:
     r, top = k * part.bore / 2, k * part.keyway_top
     half = k * part.hub.diameter / 2 if part.hub else None
 
+    notches = _notches(shown) or [[], []]
+
     def face(side: float, reach: float, inner: Sequence[complex]) -> Mark:
         """One of the two faces; ``inner`` runs along the bore from right to left."""
-        outer = [complex(0, side * reach), complex(w, side * reach)]
+        outer = [complex(0, side * reach), complex(w, side * reach), *notches[0 if side > 0 else 1]]
         outer += [complex(w, side * half), complex(end, side * half)] if half else []
         return Region(np.array([*outer, *inner]))
 
@@ -341,6 +378,13 @@ def _section_dimensions(shown: ShownPart) -> list[Mark]:
         marks.append(Line(np.array([complex(end, -half - 1), complex(end, low - 2)]), Role.DIMENSION))
         diameter = say("⌀{length}", length=size(part.hub.diameter))
         marks.append(Dimension(complex(end, -half), complex(end, half), diameter, -FIRST_DIMENSION_OFFSET))
+    if shown.groove:
+        high = shown.extent.top
+        depth, across = say("{length}", length=size(shown.groove.depth)), size(2 * shown.groove.disk_radius)
+        bottom = complex(w - k * shown.groove.depth, high)
+        marks.append(Dimension(bottom, complex(w, high), depth, FIRST_DIMENSION_OFFSET - 2))
+        beyond = end - w + FIRST_DIMENSION_OFFSET + (DIMENSION_SPACING if part.hub else 0.0)
+        marks.append(Dimension(complex(w, -high), complex(w, high), say("⌀{length}", length=across), -beyond))
     return [*marks, *_chamfer_marks(shown)]
 
 

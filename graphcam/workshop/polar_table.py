@@ -104,6 +104,7 @@ class PolarTable:
 
     angles : (n,) from the zero mark [deg], in the outline's sense;  radii : (n,) of the profile [mm]
     cutter : (n,) of the centre of the cutter at the same angles [mm]; None without a cutter
+    wall : (n,) of the outer wall of a groove [mm]; None without one
     bound : the maximum distance of a straight line between rows from the curves, along their normals [mm]
     decimals : of the radii
     """
@@ -111,12 +112,15 @@ class PolarTable:
     angles: Floats
     radii: Floats
     cutter: Floats | None
+    wall: Floats | None
     bound: float
     decimals: int
 
 
-def polar_table(outline: Outline, table: PartTable) -> PolarTable:
+def polar_table(outline: Outline, table: PartTable, wall: Outline | None = None) -> PolarTable:
     """The table of an outline, with the step, the tolerance and the cutter that ``[part]`` names.
+
+    wall : the outer wall of a groove
 
     Raises
     ------
@@ -129,20 +133,20 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
     >>> rows.angles[:4].tolist(), rows.radii[:4].round(2).tolist()
     ([0.0, 2.0, 4.0, 6.0], [27.0, 27.02, 27.08, 27.18])
     """
-    curves = [PolarCurve(outline)]
+    curves = {"radii": PolarCurve(outline)} | ({"wall": PolarCurve(wall)} if wall else {})
     if table.cutter_radius is not None:
         outline.check_cutter(table.cutter_radius)
-        curves.append(PolarCurve(outline, table.cutter_radius))
+        curves["cutter"] = PolarCurve(outline, table.cutter_radius)
     allowed = profile_tolerance(table, outline.greatest_radius)
     bound = CHORD_TOLERANCE_SHARE * allowed
     corners = np.degrees(np.angle(outline.corners)) % 360
-    angles = _rows(curves, table.table_step, bound, corners.round(CORNER_DECIMALS))
+    angles = _rows([*curves.values()], table.table_step, bound, corners.round(CORNER_DECIMALS))
     if angles.size > MAX_ROWS:
         limit = say("large enough for a table of at most {most} rows, not {size}", most=MAX_ROWS, size=angles.size)
         raise DesignError("part.profile_tolerance", allowed, limit, FILES_REMEDY)
-    radii = [curve.radius(np.radians(angles)) for curve in curves]
+    radii = {name: curve.radius(np.radians(angles)) for name, curve in curves.items()}
     decimals = radius_decimals(table, outline.greatest_radius)
-    return PolarTable(angles, radii[0], radii[1] if radii[1:] else None, bound, decimals)
+    return PolarTable(angles, radii["radii"], radii.get("cutter"), radii.get("wall"), bound, decimals)
 
 
 def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) -> Floats:

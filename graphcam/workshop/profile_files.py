@@ -29,12 +29,12 @@ def write_curves(
     spline: ProfileSpline | None,
     folder: Path,
     kinds: Collection[str] = tuple(FILE_NAMES),
-    wall: Literal["", "outer"] = "",
+    curve: Literal["", "outer", "second"] = "",
 ) -> dict[str, str]:
     """Write the wanted ones of the three files into a folder; returns the file names by kind.
 
     spline : of the profile that can be cut, for the DXF; None where that is not wanted
-    wall : "outer" for that of a groove, whose files are named profile-outer
+    curve : "outer" for the other wall of a groove, whose files are named profile-outer, "second" for a second cam
 
     Raises
     ------
@@ -43,7 +43,7 @@ def write_curves(
     from graphcam.sheets.dxf_renderer import write_spline
 
     wanted = {
-        kind: name.replace("profile", f"profile-{wall}" if wall else "profile")
+        kind: name.replace("profile", f"profile-{curve}" if curve else "profile")
         for kind, name in FILE_NAMES.items()
         if kind in kinds
     }
@@ -54,7 +54,7 @@ def write_curves(
         kind: write for kind, write in (("profile_csv", _write_csv), ("profile_xyz", _write_xyz)) if kind in kinds
     }
     if tables:
-        envelope = cam.outer_wall if wall else cam.envelope
+        envelope = cam.outer_wall if curve == "outer" else cam.envelope
         cut = _from_table_zero(cam, trimmed_profile(envelope, PROFILE_POINTS))
         for kind, write in tables.items():
             write(cut, folder / wanted[kind])

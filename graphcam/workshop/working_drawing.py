@@ -6,7 +6,7 @@ largest goes on with the polar table on further pages.
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -134,11 +134,11 @@ def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
 
 def _profile_face(shown: ShownPart, start: complex) -> Points:
     """Places on the profile that a line from a start reaches without crossing those of the radii or their heads."""
-    free = np.full(shown.profile.shape, True)
+    free = np.full(shown.wall.shape, True)
     for at, _ in dimensioned_radii(shown):
         side = math.copysign(1.0, (start / at).imag)
-        free &= side * np.angle(shown.profile / at) > RADIUS_LINE_ANGLE
-    return shown.profile[free] if free.any() else shown.profile
+        free &= side * np.angle(shown.wall / at) > RADIUS_LINE_ANGLE
+    return shown.wall[free] if free.any() else shown.wall
 
 
 def _side(shown: ShownPart, way: int) -> Points:
@@ -155,7 +155,7 @@ def _bore_face(shown: ShownPart) -> Points:
 
 
 def working_drawing_of(contents: PartContents) -> Drawing:
-    """The working drawing of a cam.
+    """The working drawing of a cam, and after it that of the second one of a conjugate pair.
 
     Raises
     ------
@@ -177,6 +177,8 @@ def working_drawing_of(contents: PartContents) -> Drawing:
     for k, blocks in enumerate(further, 2):
         empty = empty_sheet(sheet, title, k, count, contents.tell, gauged=False)
         pages.append(Page(*sheet.size, sheet.content, (empty, Group("tables", drawn_blocks(blocks)))))
+    if contents.given.second_roller is not None and not contents.second:
+        pages += working_drawing_of(replace(contents, second=True)).pages
     return Drawing(title.name, tuple(pages))
 
 

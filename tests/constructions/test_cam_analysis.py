@@ -209,3 +209,14 @@ def test_drawn_and_exact_are_compared_in_words(name):
     said = comparison_file(gc.solve(task_from(TASKS[name])))
     assert ("measured maximum α" in said) == (name != "flat")
     assert "measured lift" in said
+
+
+def test_of_two_strokes_a_turn_the_angles_are_measured_between_turns_that_follow_one_another(tmp_path):
+    """An ellipse about its centre lifts the follower twice a turn, and each of the four phases is a quarter of it."""
+    angle = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    rows = "".join(f"{x!r},{y!r}\n" for x, y in np.stack([40 * np.cos(angle), 32 * np.sin(angle)], axis=-1).tolist())
+    (tmp_path / "cam.csv").write_text("x,y\n" + rows, encoding="utf-8")
+    text = 'rotation = "ccw"\n[outline]\nfile = "cam.csv"\n[follower]\nkind = "translating"\nroller_radius = 10\n'
+    (tmp_path / "cam.toml").write_text(text, encoding="utf-8")
+    drawn = gc.solve(gc.load_task(tmp_path / "cam.toml")).drawn["analysis"]
+    assert np.degrees(drawn.value("phase_angles")) == pytest.approx([90] * 4, abs=1)

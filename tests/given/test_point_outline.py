@@ -138,7 +138,10 @@ def test_points_that_are_no_cam_are_told(points, said):
 
 @over_all(
     ("head", "unit"),
-    [("x_mm,y_mm", 1.0), ("X;Y", 1.0), ("x_in\ty_in", 25.4), ("no,x,y,z", 1.0), ("angle_deg,radius_mm", None)],
+    [
+        *[("x_mm,y_mm", 1.0), ("X;Y", 1.0), ("x_in\ty_in", 25.4), ("no,x,y,z", 1.0), ("angle_deg,radius_mm", None)],
+        *[("X (mm)\tY (mm)", 1.0), ("x [cm];y [cm]", 10.0), ("Winkel (°);Radius", None), ("угол,радиус мм", None)],
+    ],
 )
 def test_tables_of_points_in_files(tmp_path, head, unit):
     between = next(sign for sign in ";\t," if sign in head)
@@ -147,7 +150,7 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
         first, second = (math.degrees(np.angle(z)), abs(z)) if unit is None else (z.real / unit, z.imag / unit)
         cells = [f"{float(number)!r}" for number in (first, second)]
         rows.append(between.join([str(k), *cells, "0"] if head.startswith("no") else cells))
-    (tmp_path / "cam.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
+    (tmp_path / "cam.csv").write_text("\n".join(["# measured", "", head, *rows]), encoding="utf-8")
     task = '[outline]\nfile = "cam.csv"\n[follower]\nkind = "translating"\noffset = 0\nroller_radius = "1 cm"\n'
     (tmp_path / "cam.toml").write_text(task, encoding="utf-8")
     found = gc.load_task(tmp_path / "cam.toml")
@@ -177,6 +180,7 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
             "[arcs]\nbase_radius = 30\nlift = 9\n[motion]\nphases = []",
             "motion is a table.*left out where the cam is given",
         ),
+        ("[arcs]\nbase_diameter = 60\nlift = 9", "arcs.base_diameter is an unknown key.*write base_radius = 30"),
         ("[outline]\nfile = 'beside.csv'", r"beside\.csv: outline is beside the cam centre"),
         (
             "cam.prime_radius = 40\n[outline]\nfile = 'cam.csv'",

@@ -114,7 +114,7 @@ def test_a_trial_for_a_permitted_radius_says_so_though_it_takes_as_much_as_for_t
 
 
 def test_a_roller_that_no_radius_at_a_centre_distance_can_have_is_refused():
-    with pytest.raises(gc.DesignError, match="is not undercut by it") as caught:
+    with pytest.raises(gc.DesignError, match="goes with it within the permitted") as caught:
         gc.solve(replace(changed("arm", roller=120, least=1, place=150.0), limits=LimitsTable(45)))
     assert str(caught.value.quantity) == "roller radius"
 

@@ -125,6 +125,7 @@ HALF = Motion([Rise(10, math.radians(70)), Return(10, math.radians(70)), Dwell(m
         ("phi_deg,s_mm", 1, 1, "symmetric = true"),
         ("phi_deg,s_in", 2, 1 / 25.4, "symmetric = true\nper_cam_degree = 2"),
         ("phi_rad,s_thou", math.radians(1), 1000 / 25.4, "symmetric = true"),
+        ("Crank deg,Lift [mil]", 2, 1000 / 25.4, "symmetric = true\nper_cam_degree = 2"),
         ("phi_rad,s_mm", math.radians(2), 1, "symmetric = true\nper_cam_degree = 2.0"),
     ],
 )

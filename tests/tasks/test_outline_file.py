@@ -183,3 +183,24 @@ def test_files_that_are_no_dxf_are_told(tmp_path):
     (tmp_path / "cam.dxf").write_bytes(b"nothing")
     with pytest.raises(gc.GraphcamError, match=r"is not to be read, .* one closed loop; cam\.dxf is not a DXF file"):
         gc.load_task(tmp_path / "cam.toml")
+
+
+def chords_on(space):
+    """The same as a polyline of short chords without bulges, as programs write that have no arcs."""
+    points = []
+    for part, following in zip(CAM.arcs(), [*CAM.arcs()[1:], CAM.arcs()[0]], strict=True):
+        way = -1 if part.radius > 0 else 1
+        turned = way * (way * np.angle(following.outward / part.outward) % (2 * math.pi))
+        shares = np.arange(40) / 40
+        points += (part.centre + part.radius * part.outward * np.exp(1j * turned * shares)).tolist()
+    space.add_lwpolyline([(z.real, z.imag) for z in points], close=True)
+
+
+@over_all("draw", [parts_on, polyline_on, chords_on])
+def test_arcs_of_a_drawing_are_known_as_such(tmp_path, draw):
+    """So its motion is that of the radii: the same accelerations, and the same jumps."""
+    motion = loaded(tmp_path, lambda document: draw(document.modelspace())).motion()
+    exact = gc.outline_motion(CAM, gc.Translating(4, 9))
+    phi = np.linspace(0, 2 * math.pi, 3601)
+    assert np.abs(np.array(motion(phi)[:3]) - np.array(exact(phi)[:3])).max() < 0.02
+    assert np.degrees(motion.breaks) == pytest.approx(np.degrees(exact.breaks), abs=1e-3)

@@ -58,6 +58,7 @@ PARTS = [
 ]  # fmt: skip
 PART = {
     "bore": 20.0, "width": 18.0, "hub_diameter": 36.0, "hub_length": 30.0, "profile_tolerance": 0.05,
+    "second_roller": [0.0, -100.0], "second_roller_radius": 12.0,
     "cutter_radius": 10.0, "density": 7850.0, "feed": 100.0, "roughness": 3.2, "profile_roughness": 0.8,
     "bore_roughness": 1.6,
 }  # fmt: skip
@@ -102,6 +103,7 @@ TASKS = {
     "given tangent cam": {
         "rotation": "ccw", "follower": {"kind": "translating", "offset": 2.0, "roller_radius": 8.0},
         "motion": {"radii": {"base_radius": 28.0, "flank_radius": "straight", "lift": 15.0, "ascent": 70.0}},
+        "part": {"groove_depth": 8.0},
     },
     "arcs": builtin_arcs_task().to_dict() | {"speed_rpm": 90.0},
 }  # fmt: skip
