@@ -95,7 +95,7 @@ function camAngleOf(page) {
   // Those of a pane; of diagrams one under another the cam angle has one for all, and a border stands in the lowest but one.
   function handlesIn(pane, handles) {
     const names = pane.names(), down = page.picture(pane)?.down || {}, borders = names.includes("displacement") ? "displacement" : names.at(-1);
-    const isWanted = ({ id, view }) => names.length < 2 || (id.endsWith("/phi") ? view === names[0] : id.includes("/border") ? view === borders : id.endsWith("/lift"));
+    const isWanted = ({ id, view }) => names.length < 2 || (id.endsWith("/phi") ? view === names[0] : id.includes("/border") ? view === borders : /\/(lift|point)/.test(id));
     return handles.filter((handle) => names.includes(handle.view) && isWanted(handle)).flatMap((handle) => {
       if (handle.axes[0].path === "phi") {
         if (isOwn(handle.id)) handle = withAngle(pane, handle);
