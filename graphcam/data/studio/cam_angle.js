@@ -28,6 +28,14 @@ function camAngleOf(page) {
     page.showHands();
   }
 
+  const showsPlan = () => page.panes.some((pane) => pane.names().includes("plan"));
+
+  // The velocity plan goes with it too, from station to station.
+  function followPlan() {
+    const far = (last.stations || []).map((degrees) => Math.abs(degrees - now().phi));
+    if (far.length && showsPlan()) state.set({ station: far.indexOf(Math.min(...far)) });
+  }
+
   // The mechanism has no steps: its panel says what is read off at this angle.
   function showLive() {
     const data = last.mechanism, panel = at("panel-step"), { turned } = page.panes[0];
@@ -165,5 +173,5 @@ function camAngleOf(page) {
     page.ask();
   }
 
-  return { showScene, showLive, showPhi, showCursor, follow, isOwn, handlesIn, turnTo, turn, still, turning: () => turning.on };
+  return { showScene, showLive, showPhi, showCursor, follow, followPlan, showsPlan, isOwn, handlesIn, turnTo, turn, still, turning: () => turning.on };
 }

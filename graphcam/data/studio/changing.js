@@ -102,7 +102,7 @@ function changingOf(page) {
     if (page.isOwn(to.handle)) {
       begun(page.hand);
       page.turnTo(to);
-      if (!last.handles.some((handle) => handle.axes[0].path === "phi" && !page.isOwn(handle.id))) return;
+      if (!page.showsPlan() && !last.handles.some((handle) => handle.axes[0].path === "phi" && !page.isOwn(handle.id))) return;
     }
     page.ask();
   }
