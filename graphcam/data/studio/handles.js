@@ -64,7 +64,7 @@ function handsOf(at, stage, acts) {
   function knobOf(handle) {
     const two = handle.axes.length > 1;
     const knob = make("div", {
-      class: "hand", "data-id": handle.id, role: two ? "group" : null, "aria-label": two ? handle.name : null,
+      class: "hand", "data-id": handle.id, title: handle.name, role: two ? "group" : null, "aria-label": two ? handle.name : null,
       "aria-roledescription": two ? word("slider_2d") : null,
     });
     const picture = drawSvg("svg", "knob", { viewBox: "-22 -22 44 44", "aria-hidden": "true" }, knob);

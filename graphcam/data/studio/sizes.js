@@ -219,5 +219,12 @@ function sizesOf(at, acts) {
 
   at("form").addEventListener("submit", (event) => event.preventDefault());
 
-  return { show, follow, showError, restore, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field) };
+  // What a task has of a size, in words.
+  function said({ path, name, unit, choices }, task) {
+    const value = valueAt(task, path), number = typeof value === "number" && shortNumber(value, decimal());
+    const chosen = choices?.find((choice) => alike(choice.value, value))?.name;
+    return `${name} ${number ? `${number} ${unit}`.trim() : chosen ?? word("found")}`;
+  }
+
+  return { show, follow, showError, restore, said, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field) };
 }
