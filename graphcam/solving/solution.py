@@ -269,9 +269,14 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
     return solved_on(board_of(task), task, pencil)
 
 
-def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solution:
-    """The solution of a task on a drawing board, whose scales may be other than the task's own."""
-    chain = Chain(board, pencil or Pencil())
+def solved_on(
+    board: Board, task: Task, pencil: Pencil | None = None, done: Mapping[str, Construction] | None = None
+) -> Solution:
+    """The solution of a task on a drawing board, whose scales may be other than the task's own.
+
+    done : constructions that lie on such a board already, by their names
+    """
+    chain = Chain(board, pencil or Pencil(), done=done or {})
     try:
         follower = chain.board.follower.built(chain.place, chain.roller_radius)
         cam = Cam(task.motion(), follower, chain.prime_radius, task.rotation)

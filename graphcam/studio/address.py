@@ -162,16 +162,16 @@ def differences(old: Any, new: Any, path: str = "") -> Iterator[tuple[str, Any]]
                 yield from differences(old[key], new[key], f"{path}.{key}" if path else key)
             else:
                 yield f"{path}.{key}" if path else key, new.get(key)
-    elif _tables(old) and _tables(new) and len(old) == len(new):
+    elif _rows(old) and _rows(new) and len(old) == len(new):
         for k, (one, other) in enumerate(zip(old, new, strict=True)):
             yield from differences(one, other, f"{path}[{k}]")
     elif old != new:
         yield path, new
 
 
-def _tables(value: Any) -> bool:
-    """Whether it is a list of tables, such as phases; points and poles are told whole."""
-    return isinstance(value, list) and all(isinstance(item, Mapping) for item in value)
+def _rows(value: Any) -> bool:
+    """Whether it is a list of tables or of rows, such as phases, of which each is told; points and poles are not."""
+    return isinstance(value, list) and all(isinstance(item, Mapping | list) for item in value)
 
 
 def _with_differences(task: Mapping[str, Any], moved: Mapping[str, Any]) -> dict[str, Any]:

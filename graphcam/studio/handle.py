@@ -32,13 +32,16 @@ def changes_with(extra: Mapping[str, Any], path: str, value: float) -> Changes:
     """The changes that give a task another value of a size.
 
     extra : what goes with it: ``first``, what is put into the task before; ``sum``, another size that is the rest of a
-        total; ``with``, other sizes that stay such parts of it
+        total; ``with``, other sizes that go with it, such parts of it beyond what ``beyond`` says of them, usually 0
 
     >>> changes_with({"sum": {"path": "b", "total": 10.0}, "with": {"c": 0.5}}, "a", 4.0)
     {'a': 4.0, 'b': 6.0, 'c': 2.0}
     """
     rest = {sum_["path"]: round(sum_["total"] - value, 9)} if (sum_ := extra.get("sum")) else {}
-    shares = {other: round(value * share, 12) for other, share in extra.get("with", {}).items()}
+    beyond = extra.get("beyond", {})
+    shares = {
+        other: round(beyond.get(other, 0.0) + value * share, 12) for other, share in extra.get("with", {}).items()
+    }
     return {**extra.get("first", {}), path: value, **rest, **shares}
 
 

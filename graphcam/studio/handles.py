@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from graphcam.constructions.views import ACCELERATION, ANGLE, COMBINED, DISPLACEMENT, PLAN, PROFILE, REGION, VELOCITY
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, GraphcamError
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio import (
@@ -13,6 +13,7 @@ from graphcam.studio import (
     handles_arm as arm,
     handles_diagrams as diagrams,
     handles_plan as plan,
+    handles_points as points,
     handles_profile as profile,
     handles_region as region,
 )
@@ -74,7 +75,7 @@ def dragged_within(
 ) -> tuple[Changes, Solved]:
     """The dragged sizes as far as there is a design: a hand that goes on is followed to the last one on its way.
 
-    solve : the solution with some changes, or a DesignError
+    solve : the solution with some changes, or a GraphcamError
     returns : the changes, and the solution with them
 
     Raises
@@ -98,7 +99,7 @@ def dragged_within(
         changes = handle.drag(handle.at + share * (to - handle.at), fine)
         try:
             found, reached = (changes, solve(changes)), share
-        except DesignError:
+        except GraphcamError:
             beyond = share
         if reached >= 1:
             break
@@ -140,6 +141,8 @@ def _of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[H
     yield from diagrams.borders(solution, view)
     if view == DISPLACEMENT.name:
         yield from diagrams.lift(solution)
+        yield from points.conditions(solution)
+        yield from points.rows(solution)
     if view == ACCELERATION.name:
         yield from diagrams.ordinate(solution)
     if view in (ACCELERATION.name, VELOCITY.name):

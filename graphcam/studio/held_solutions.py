@@ -10,10 +10,11 @@ import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 from graphcam.constructions.board import Board
+from graphcam.constructions.chain import Chain
 from graphcam.constructions.pressure_angle import shown_station
 from graphcam.constructions.views import REGION
 from graphcam.drafting.ink import Construction
@@ -228,7 +229,30 @@ def _cached_solution(task: str, spoken: str, kept: str, station: int | None) -> 
     whole = replace(given, drawing=replace(given.drawing, whole_turn=True))
     board = held_board(board_of(whole), given, hold)
     check_heights(board)
-    return solved_on(board if station is None else replace(board, station=station), given, pencil)
+    board = board if station is None else replace(board, station=station)
+    return solved_on(board, given, pencil, _drawn_diagrams(_DiagramBoard.of(board)) if pencil.perfect else None)
+
+
+@dataclass(frozen=True)
+class _DiagramBoard:
+    """A board by what the diagrams of the motion are drawn from, which most sizes leave as it is."""
+
+    key: tuple[Any, ...]
+    board: Board = field(compare=False)
+
+    @classmethod
+    def of(cls, board: Board) -> _DiagramBoard:
+        divided = board.divisions, board.refine, board.jerk_pole, tuple((k, *cuts) for k, cuts in board.finer.items())
+        follower = board.follower
+        drawn_for = follower.unit, follower.divides_at_corners, follower.constructions
+        return cls((board.motion, *divided, board.ordinate, board.poles, board.mu_phi, board.omega, *drawn_for), board)
+
+
+@lru_cache(maxsize=4)
+def _drawn_diagrams(on: _DiagramBoard) -> Mapping[str, Construction]:
+    """Acceleration and integrations of a board, and their steps once they are asked for."""
+    chain = Chain(on.board)
+    return {each.name: replace(each, draw=cache(each.draw)) for each in (chain.acceleration, chain.integration)}
 
 
 def check_heights(board: Board) -> None:

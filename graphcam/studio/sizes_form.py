@@ -1,7 +1,7 @@
 """The form of a task's sizes: what can be typed, moved, added or chosen, in order, in the words of the field."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, get_args
 
 from graphcam.constructions.axes import phase_symbol
@@ -252,9 +252,45 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     yield from make.numbers("limits")
     if has_angles(solution.task):
         yield make.choice("limits.rest", say("Angle in the lower dwell"), DWELL_LIMIT_CHOICES.items())
-    for table in ("spring", "material", "drawing"):
-        yield from make.numbers(table)
+    yield _added(make, "spring", say("Forces and spring"), _added_spring(solution))
+    yield from make.numbers("spring")
+    if solution.task.spring is not None:
+        yield _added(make, "material", say("Contact stress"), {"material": {"width": USUAL_WIDTH}})
+    yield from make.numbers("material")
+    yield from make.numbers("drawing")
     yield make.choice("drawing.jerk", say("Jerk"), JERK_CHOICES.items())
+
+
+def _added(make: FieldMaker, path: str, name: Caption, added: dict[str, Any]) -> Field:
+    """A choice whether the task has a table; ``added`` is what changes with it."""
+    chosen, gone = (
+        make.said.get(path) is not None,
+        dict.fromkeys(("spring", "material") if path == "spring" else (path,)),
+    )
+    choices = [
+        {"value": value, "name": make.tell(title), "changes": {} if value == chosen else changes}
+        for value, title, changes in ((False, say("not calculated"), gone), (True, say("calculated"), added))
+    ]
+    return make.choice(path, name, ()) | {"value": chosen, "choices": choices}
+
+
+def _added_spring(solution: Solution) -> dict[str, Any]:
+    """The usual spring and mass of a follower whose preload is found, and a speed if the task has none."""
+    follower, straight = plain_data(solution.task.follower), {"mass": USUAL_MASS, "stiffness": USUAL_STIFFNESS}
+    speed = {"speed_rpm": USUAL_SPEED} if solution.task.speed_rpm is None else {}
+    if not table_of(follower).swings:
+        return {"spring": straight, **speed}
+    lever = _lever(solution, follower)
+    return {"spring": _rounded({"inertia": USUAL_MASS * lever**2, "stiffness": USUAL_STIFFNESS * lever**2}), **speed}
+
+
+def _lever(solution: Solution, follower: Mapping[str, Any]) -> float:
+    """How far from its pivot a follower is moved [mm]."""
+    return float(follower.get("arm") or follower.get("distance") or solution.chain.place)
+
+
+def _rounded(sizes: Mapping[str, float]) -> dict[str, float]:
+    return {key: float(f"{value:.{SIZE_DIGITS}g}") for key, value in sizes.items()}
 
 
 def _sheet(make: FieldMaker) -> Iterator[Field]:
@@ -278,6 +314,10 @@ DEFAULT_ARM = 100.0
 """One whose lifts are angles [mm]."""
 DEFAULT_DISTANCE = 200.0
 """The centre distance of a face that swings, where no pivot is known [mm]."""
+USUAL_MASS, USUAL_STIFFNESS, USUAL_SPEED = 1.0, 3.0, 120.0
+"""Of a follower to which a spring is added: its mass [kg], the spring [N/mm] and the cam [rpm]."""
+USUAL_WIDTH = 15.0
+"""Of a contact whose stress is asked for [mm]."""
 SIZE_DIGITS = 4
 """Digits of the sizes of a spring that goes with another kind of follower."""
 
@@ -338,8 +378,7 @@ def _spring_of_kind(solution: Solution, follower: dict[str, Any]) -> dict[str, A
     if spring is None or spring.swings == swings:
         return {}
     present = plain_data(solution.task.follower)
-    pivoted = follower if swings else present
-    lever = float(pivoted.get("arm") or pivoted["distance"])
+    lever = _lever(solution, follower if swings else present)
     said = plain_data(spring)
     kept = {key: said[key] for key in ("acceleration", "friction", "load")}
     if isinstance(spring, SpringTable):
@@ -348,7 +387,7 @@ def _spring_of_kind(solution: Solution, follower: dict[str, Any]) -> dict[str, A
         turned |= {} if spring.preload is None else {"preload": spring.preload * lever}
     else:
         turned = _straightened(spring, lever)
-    return {"spring": {**{key: float(f"{value:.{SIZE_DIGITS}g}") for key, value in turned.items()}, **kept}}
+    return {"spring": {**_rounded(turned), **kept}}
 
 
 def _straightened(spring: ArmSpringTable, lever: float) -> dict[str, float]:

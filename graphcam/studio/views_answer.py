@@ -111,9 +111,15 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
         # What is kept tells scales and accelerations, and where nothing is dragged nothing need be kept.
         "hold": None if request.upto else _kept_hold(solution, known, drawn, names, hold).plain(),
         "station": moved.station,
+        "stations": [round(math.degrees(phi), 3) for phi in _stations(solution)],
         "degrees_per_mm": math.degrees(solution.chain.board.mu_phi.per_mm),
         "ms": clock.ms,
     }
+
+
+def _stations(solution: AnySolution) -> Sequence[float]:
+    """The cam angles [rad] at which a velocity plan may be drawn, in the order of the stations."""
+    return solution.chain.board.stations.phi.tolist() if isinstance(solution, Solution) else []
 
 
 def _steps(solution: AnySolution, request: ViewsRequest, hold: DragHold | None) -> ViewSteps:

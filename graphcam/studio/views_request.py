@@ -35,6 +35,7 @@ class AskedView:
 
     px_per_mm : how large it is shown
     letter_px : no letter is smaller
+    lettered : whether letters of that height were asked for
     plain : whether its axes, results and limits are drawn alone, without the construction
     have : hashes of the steps that the page has already, by their identifiers
     """
@@ -42,13 +43,14 @@ class AskedView:
     name: str
     px_per_mm: float
     letter_px: float
+    lettered: bool
     plain: bool
     have: Mapping[str, str]
 
     @property
     def labelled(self) -> bool:
-        """Whether it is large enough for labels."""
-        return self.plain or self.px_per_mm >= MIN_LETTERED_SCALE
+        """Whether it is large enough for labels, or has letters of a size that was asked for."""
+        return self.plain or self.lettered or self.px_per_mm >= MIN_LETTERED_SCALE
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +183,9 @@ def _asked_view(view: Any) -> AskedView:
     if name is None:
         raise DesignError("views.name", say("missing"), say("given"))
     px_per_mm, letter_px = number(view, "px_per_mm", 2.0, 0.0, MAX_PX_PER_MM), number(view, "letter_px", *LETTER_PX)
-    return AskedView(name, px_per_mm, letter_px, flag(view, "plain"), {str(key): str(have[key]) for key in have})
+    return AskedView(
+        name, px_per_mm, letter_px, "letter_px" in view, flag(view, "plain"), {str(key): str(have[key]) for key in have}
+    )
 
 
 def flag(data: Data, name: str) -> bool:

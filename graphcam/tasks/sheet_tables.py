@@ -108,6 +108,8 @@ class SheetTable:
 
 def plain_data(value: Any) -> Any:
     """A table as dictionaries, lists, numbers and texts; what is None is left out, a law is its name."""
+    if type(value) in (float, int, str):
+        return value
     if isinstance(value, tuple):
         return [plain_data(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
     if isinstance(value, Law):

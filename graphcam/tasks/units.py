@@ -12,6 +12,7 @@ from decimal import Decimal
 from typing import Annotated, Any
 
 from graphcam.errors import DesignError
+from graphcam.given.table_file import CurveTable
 from graphcam.tasks.number_limits import Bounded, NotNegative, Positive, Within
 from graphcam.typed_words import meant
 from graphcam.words import Caption, Words, or_list, say
@@ -133,7 +134,8 @@ def numbers_in_units(table: Any, path: str = "") -> Iterator[tuple[str, InUnit]]
     elif isinstance(table, tuple):
         for k, part in enumerate(table):  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
             yield from numbers_in_units(part, f"{path}[{k}]")
-    elif dataclasses.is_dataclass(table):
+    # The rows of a measured motion, which are many, have the unit of their column.
+    elif dataclasses.is_dataclass(table) and not isinstance(table, CurveTable):
         for name in (each.name for each in dataclasses.fields(table) if each.init):
             yield from numbers_in_units(getattr(table, name), f"{path}.{name}".lstrip("."))
 

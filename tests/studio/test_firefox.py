@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import socket
-import subprocess
-import time
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any
 
 import pytest
-from programs import program, pyodide_folder
+from firefox import Firefox, firefox_in
+from programs import pyodide_folder
 from studio_pages import Engine
 
 import graphcam as gc
@@ -22,75 +17,15 @@ from graphcam.studio.worker_page import write_one_file
 
 pytestmark = pytest.mark.slow
 
-PREFERENCES = 'user_pref("marionette.port", 0);\nuser_pref("datareporting.policy.dataSubmissionEnabled", false);\n'
 SETTLED = "return Boolean(window.studio && document.querySelector('#drawing [data-group]') && studio.quiet())"
 OFFSET = "return studio.state.get().task.follower.offset"
 DRAWN = "return document.getElementById('drawing').innerHTML"
-STARTED_IN = 300
-"""Seconds at most, on a machine with much else to do."""
-
-
-class Firefox:
-    """A client of Marionette, by which Firefox is steered: messages of JSON, each behind its length."""
-
-    def __init__(self, port: int) -> None:
-        self.socket = socket.create_connection(("127.0.0.1", port))
-        self.read = self.socket.makefile("rb")
-        self.number = 0
-        self._message()
-        self.do("WebDriver:NewSession")
-
-    def _message(self) -> Any:
-        digits = b""
-        while not digits.endswith(b":"):
-            digits += self.read.read(1)
-        return json.loads(self.read.read(int(digits[:-1])))
-
-    def do(self, command: str, **values: Any) -> Any:
-        self.number += 1
-        message = json.dumps([0, self.number, command, values]).encode()
-        self.socket.sendall(b"%d:%b" % (len(message), message))
-        _, _, error, found = self._message()
-        assert error is None, error
-        return found
-
-    def close(self) -> None:
-        self.read.close()
-        self.socket.close()
-
-    def script(self, text: str) -> Any:
-        return self.do("WebDriver:ExecuteScript", script=text, args=[])["value"]
-
-    def wait(self, text: str) -> None:
-        end = time.monotonic() + STARTED_IN
-        while not self.script(text):
-            assert time.monotonic() < end, text
-            time.sleep(0.1)
 
 
 @pytest.fixture(scope="module")
 def firefox(tmp_path_factory) -> Iterator[Firefox]:
-    profile = tmp_path_factory.mktemp("firefox")
-    (profile / "user.js").write_text(PREFERENCES, encoding="utf-8")
-    command = [program("firefox-esr"), "--headless", "--marionette", "--no-remote", "--profile", str(profile)]
-    with started(command):
-        active = profile / "MarionetteActivePort"
-        end = time.monotonic() + STARTED_IN
-        while not (active.exists() and active.read_text(encoding="utf-8")):
-            assert time.monotonic() < end
-            time.sleep(0.1)
-        with closing(Firefox(int(active.read_text(encoding="utf-8")))) as client:
-            yield client
-
-
-@contextmanager
-def started(command: list[str]) -> Iterator[None]:
-    running = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        yield
-    finally:
-        running.terminate()
-        running.wait(60)
+    with firefox_in(tmp_path_factory.mktemp("firefox")) as client:
+        yield client
 
 
 def moved_by_keys(firefox: Firefox) -> None:

@@ -7,6 +7,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
+from graphcam.studio.engine import answer
 from graphcam.studio.handle import changes_with
 from graphcam.studio.sizes_form import form_of, phases_without, with_dwell, with_step
 from graphcam.studio.task_paths import changed_task, steps_of, value_at
@@ -168,3 +169,24 @@ def test_paths():
 def test_a_path_that_leads_nowhere_is_refused(path):
     with pytest.raises(gc.DesignError, match="path"):
         changed_task({"motion": {"phases": [{"angle": 80}]}}, {path: 1})
+
+
+@pytest.mark.parametrize("name", [each for each in BUILT_IN if each != "arcs"])
+def test_forces_and_stress_are_added_and_taken_away(name):
+    """With a spring there are diagrams of forces, with a contact that of its stress; without them all is as it was."""
+
+    def chosen(task, path, value):
+        form = {field["path"]: field for field in answer({"task": task, "views": [], "form": True})["form"]}
+        choices = {choice["value"]: choice["changes"] for choice in form[path]["choices"]}
+        assert choices[form[path]["value"]] == {}
+        return changed_task(task, choices[value])
+
+    def views(task):
+        return {each["name"] for each in answer({"task": task, "views": []})["names"]}
+
+    pressed = chosen(plain_task(name), "spring", True)
+    assert "normal_force" in views(pressed) - views(plain_task(name))
+    stressed = chosen(pressed, "material", True)
+    assert "contact_stress" in views(stressed) - views(pressed)
+    bare = chosen(stressed, "spring", False)
+    assert bare | {"speed_rpm": None} == plain_task(name) | {"speed_rpm": None}

@@ -13,6 +13,8 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
 from graphcam.constructions.adoption import BLUNT_FACTOR
+from graphcam.studio import task_text
+from graphcam.studio.address import StudioPlace, address_of
 from graphcam.studio.engine import answer
 from graphcam.studio.handle import changes_with
 from graphcam.studio.handles import dragged, handles_of
@@ -93,6 +95,9 @@ def test_a_handle_follows_the_hand(name, handle):
         if any(path in STATE for path in drawn.changes) and handle["shape"] == "xy":
             assert_nearest_station(name, handle, drawn, other, to)
             followed += 1
+        elif handle["id"].startswith("displacement/point"):
+            assert_row_moved(handle, drawn, to)
+            followed += 1
         elif within(handle, other, drawn):
             assert apart(handle, other, to) <= a_step(name, handle, drawn, other), (to, drawn.changes)
             followed += 1
@@ -104,6 +109,16 @@ def within(handle, other, drawn):
     ranges = [(old, new, new) for old, new in zip(handle["axes"], other["axes"], strict=True)]
     free = all(max(a["min"], b["min"]) < c["value"] < min(a["max"], b["max"]) for a, b, c in ranges)
     return free and bool(drawn.changes) and handle["view"] != "arcs"
+
+
+def assert_row_moved(handle, drawn, to):
+    """The row of a table lies where the hand is, by the scale at which it took hold, or not so far."""
+    (axis,), (_, y), start = handle["axes"], handle["at"], dict(drawn.changes)
+    moved, asked = (
+        start[axis["path"]] - axis["value"],
+        (y - to[1]) * at_rest("measured")["views"][2]["ordinate"]["per_mm"],
+    )
+    assert 0 <= moved / asked <= 1 + axis["fine"] / abs(asked)
 
 
 def a_step(name, handle, drawn, other):
@@ -265,7 +280,7 @@ def test_every_axis_names_a_path_of_the_task(name):
                 continue
             value = min(axis["value"] + axis["step"], axis["max"])
             new = rebuilt(changed_task(task, changes_with(axis, axis["path"], value)))
-            assert value_at(new.to_dict(), axis["path"]) == pytest.approx(value)
+            assert value_at(task_text.plain_task(new), axis["path"]) == pytest.approx(value)
 
 
 @pytest.mark.parametrize(
@@ -319,3 +334,43 @@ def draws(name, count, seed):
 @over_all("name", BUILT_IN)
 def test_a_drag_never_leads_to_an_error(name, seed):
     draws(name, 1, 5 + seed)
+
+
+LOWER, UPPER = {"s": 0, "v": 0, "a": 0}, {"s": 30, "v": 0, "a": 0}
+RISE = {"kind": "polynomial", "points": [{"angle": 0, **LOWER}, {"angle": 120, **UPPER}]}
+RETURN = {"kind": "spline", "points": [{"angle": 160, **UPPER}, {"angle": 220, "s": 12}, {"angle": 280, **LOWER}]}
+
+
+def test_points_of_a_motion_by_conditions_are_dragged():
+    """One within a part in both ways, one between two parts upwards with the other; the motion goes through it."""
+    task = plain_task("coursework") | {"motion": {"parts": [RISE, RETURN]}}
+    view = {"name": "displacement", "px_per_mm": 2.0}
+    found = answer({"task": task, "views": [view]})
+    points = {each["id"]: each for each in found["handles"] if "/point" in each["id"]}
+    assert {id_: each["shape"] for id_, each in points.items()} == {
+        "displacement/point 0.1": "y",
+        "displacement/point 1.1": "xy",
+    }
+    scale = found["views"][0]["ordinate"]["per_mm"]
+    for each in points.values():
+        assert -each["at"][1] * scale == pytest.approx(each["axes"][-1]["value"], abs=1e-2)
+    drag = {"handle": "displacement/point 1.1", "to": [230.2, -10.0 / scale]}
+    moved_ = answer({"task": task, "views": [view], "drag": drag, "hold": found["hold"]})
+    assert moved_["changes"] == {"motion.parts[1].points[1].angle": 230.0, "motion.parts[1].points[1].s": 10.0}
+    drag = {"handle": "displacement/point 0.1", "to": [120.0, -35.0 / scale]}
+    both = {"motion.parts[0].points[1].s": 35.0, "motion.parts[1].points[0].s": 35.0}
+    assert answer({"task": task, "views": [view], "drag": drag, "hold": found["hold"]})["changes"] == both
+
+
+def test_an_edited_table_says_so_and_fits_in_the_address():
+    """Rows beside the dragged one go with it, the file is called edited, and few letters tell it."""
+    task = plain_task("measured")
+    drag = {"handle": "displacement/point 90", "to": [90.0, -50.0]}
+    changes = answer({"task": task, "views": [], "drag": drag})["changes"]
+    edited = changed_task(task, changes)
+    assert edited["motion"]["table"]["file"] == "measured-edited.csv"
+    before, after = (np.array(each["motion"]["table"]["rows"]) for each in (task, edited))
+    moved_rows = np.flatnonzero(before[:, 1] != after[:, 1])
+    assert 45 <= moved_rows.min() < 60 < 120 < moved_rows.max() <= 135
+    assert np.argmax(np.abs(after - before)[:, 1]) == 90
+    assert len(address_of(StudioPlace(edited, "measured"), {"measured": task})) < 2000

@@ -1,6 +1,6 @@
 """Random walks through the studio: whatever is done, form, picture, address and the engine say the same at every rest.
 
-python tests/studio/walks.py --walks 20 --operations 40 --seed 1
+python tests/studio/walks.py --walks 20 --operations 40 --seed 1 [--firefox]
 """
 
 from __future__ import annotations
@@ -9,9 +9,14 @@ import argparse
 import random
 import re
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, cast
 
 from chromium import chromium
+from firefox import FirefoxPage, firefox_in
 from studio_pages import Engine, middle, settled, task_of
 
 from graphcam.studio.engine import answer
@@ -44,7 +49,7 @@ def chosen(page: Page, numbers: random.Random) -> str:
     chosen_list = choose(numbers, page.locator("#form select, #builtin, #beside, #sweep-size"))
     if chosen_list is None:
         return "nothing to choose"
-    k = numbers.randrange(chosen_list.locator("option").count())
+    k = numbers.randrange(chosen_list.evaluate("(list) => list.options.length"))
     chosen_list.select_option(index=k)
     return f"choose {k} at {chosen_list.get_attribute('data-key') or 'the tasks'}"
 
@@ -123,7 +128,7 @@ def contradictions(page: Page) -> list[str]:
             found.append(f"a pane shows {name} of another cam")
     if page.evaluate(READ) != task:
         found.append("the address is of another cam")
-    refused = page.locator(".error:visible").count() > 0
+    refused = page.evaluate("() => [...document.querySelectorAll('.error')].some((each) => each.checkVisibility())")
     if refused != page.evaluate(
         "() => !document.getElementById('form').querySelector('[aria-invalid=true]') === false"
     ):
@@ -149,17 +154,29 @@ def walk(page: Page, seed: int, operations: int) -> list[str]:
     return []
 
 
+@contextmanager
+def pages(*, in_firefox: bool) -> Iterator[Callable[[], Page]]:
+    """Opens pages, one after the other."""
+    if in_firefox:
+        with TemporaryDirectory() as folder, firefox_in(Path(folder)) as client:
+            yield lambda: cast("Page", FirefoxPage(client))
+    else:
+        with chromium() as browser:
+            yield lambda: browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+
+
 def main() -> None:
     """Walk so often, and say what was found."""
     parser = argparse.ArgumentParser(description=__doc__)
     for name, usual in (("walks", 10), ("operations", 40), ("seed", 0)):
         parser.add_argument(f"--{name}", type=int, default=usual)
+    parser.add_argument("--firefox", action="store_true")
     asked = parser.parse_args()
     engine, stuck = Engine(), 0
-    with chromium() as browser:
+    with pages(in_firefox=asked.firefox) as opened:
         for seed in range(asked.seed, asked.seed + asked.walks):
             engine.serve(opening="mechanism")
-            page = browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+            page = opened()
             page.goto(engine.url)
             settled(page)
             found = walk(page, seed, asked.operations)

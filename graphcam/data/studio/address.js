@@ -8,16 +8,20 @@ const USUAL_PHI = 30;
 // --- what differs between two tasks, by paths; null is what only the first has ------------------------------------------
 
 const isTable = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
-const isTables = (value) => Array.isArray(value) && value.length > 0 && value.every(isTable);
+// Of a list of tables or of rows each is told by itself, of one of numbers all.
+const isRows = (value) => Array.isArray(value) && value.length > 0 && value.every((one) => isTable(one) || Array.isArray(one));
 
 function differences(base, task, path = "", found = {}) {
   for (const key of new Set([...Object.keys(base), ...Object.keys(task)])) {
     const at = path ? `${path}.${key}` : key, [before, now] = [base[key], task[key]];
     if (now === undefined) found[at] = null;
     else if (isTable(now) && isTable(before)) differences(before, now, at, found);
-    else if (isTables(now) && isTables(before) && now.length === before.length) {
-      now.forEach((table, k) => differences(before[k], table, `${at}[${k}]`, found));
-    } else if (JSON.stringify(now) !== JSON.stringify(before)) found[at] = now;
+    else if (isRows(now) && isRows(before) && now.length === before.length) {
+      now.forEach((row, k) => {
+        if (isTable(row) && isTable(before[k])) differences(before[k], row, `${at}[${k}]`, found);
+        else if (!alike(row, before[k])) found[`${at}[${k}]`] = row;
+      });
+    } else if (!alike(now, before)) found[at] = now;
   }
   return found;
 }

@@ -70,7 +70,7 @@ function askingOf(page) {
     // What was not asked for stays what it was.
     for (const key of ["values", "form", "warnings", "mechanism"]) if (request[key]) last[key] = answer[key];
     if (request.mechanism && !request.drag) last.turned = request.task;
-    for (const key of ["names", "sizes", "handles", "hold", "degrees_per_mm"]) if (answer[key]) last[key] = answer[key];
+    for (const key of ["names", "sizes", "handles", "hold", "degrees_per_mm", "stations"]) if (answer[key]) last[key] = answer[key];
     Object.assign(page.shown, answer);
     page.shown.error = null;
     if (hand && request.hold) hand.hold = answer.hold;
@@ -89,6 +89,8 @@ function askingOf(page) {
     const before = wanted?.before?.() || state.entry(), { phi, station, ...ofTask } = changes;
     if (drag) {
       Object.assign(aim, { task: withChanges(aim.task, ofTask) }, phi !== undefined && { phi }, station !== undefined && { station });
+      // Where the cam is turned by it the plan goes on to another station, see followPlan.
+      if (phi !== undefined && station === undefined) delete aim.station;
       sizes.follow(ofTask);
     }
     page.accepting = true;

@@ -28,6 +28,14 @@ function camAngleOf(page) {
     page.showHands();
   }
 
+  const showsPlan = () => page.panes.some((pane) => pane.names().includes("plan"));
+
+  // The velocity plan goes with it too, from station to station.
+  function followPlan() {
+    const far = (last.stations || []).map((degrees) => Math.abs(degrees - now().phi));
+    if (far.length && showsPlan()) state.set({ station: far.indexOf(Math.min(...far)) });
+  }
+
   // The mechanism has no steps: its panel says what is read off at this angle.
   function showLive() {
     const data = last.mechanism, panel = at("panel-step"), { turned } = page.panes[0];
@@ -95,7 +103,7 @@ function camAngleOf(page) {
   // Those of a pane; of diagrams one under another the cam angle has one for all, and a border stands in the lowest but one.
   function handlesIn(pane, handles) {
     const names = pane.names(), down = page.picture(pane)?.down || {}, borders = names.includes("displacement") ? "displacement" : names.at(-1);
-    const isWanted = ({ id, view }) => names.length < 2 || (id.endsWith("/phi") ? view === names[0] : id.includes("/border") ? view === borders : id.endsWith("/lift"));
+    const isWanted = ({ id, view }) => names.length < 2 || (id.endsWith("/phi") ? view === names[0] : id.includes("/border") ? view === borders : /\/(lift|point)/.test(id));
     return handles.filter((handle) => names.includes(handle.view) && isWanted(handle)).flatMap((handle) => {
       if (handle.axes[0].path === "phi") {
         if (isOwn(handle.id)) handle = withAngle(pane, handle);
@@ -165,5 +173,5 @@ function camAngleOf(page) {
     page.ask();
   }
 
-  return { showScene, showLive, showPhi, showCursor, follow, isOwn, handlesIn, turnTo, turn, still, turning: () => turning.on };
+  return { showScene, showLive, showPhi, showCursor, follow, followPlan, showsPlan, isOwn, handlesIn, turnTo, turn, still, turning: () => turning.on };
 }

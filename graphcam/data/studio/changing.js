@@ -2,7 +2,7 @@
 "use strict";
 
 function changingOf(page) {
-  const { state, sizes, last, decimal, queue } = page, now = state.get;
+  const { state, sizes, last, queue } = page, now = state.get;
   let newest = null;
 
   // What is wanted is asked of the engine first, and becomes the state with its answer, as one entry of undo: `aim` is made
@@ -102,7 +102,7 @@ function changingOf(page) {
     if (page.isOwn(to.handle)) {
       begun(page.hand);
       page.turnTo(to);
-      if (!last.handles.some((handle) => handle.axes[0].path === "phi" && !page.isOwn(handle.id))) return;
+      if (!page.showsPlan() && !last.handles.some((handle) => handle.axes[0].path === "phi" && !page.isOwn(handle.id))) return;
     }
     page.ask();
   }
@@ -156,7 +156,7 @@ function changingOf(page) {
     const isMoved = ({ path }) => !alike(valueAt(before, path), valueAt(now().task, path));
     const moved = [...phasesSaid(), ...sizes.fields()].filter(isMoved);
     if (page.failed || !moved.length) return;
-    const said = moved.slice(0, 3).map(({ path, name, unit }) => `${name} ${shortNumber(valueAt(now().task, path), decimal())} ${unit}`.trim());
+    const said = moved.slice(0, 3).map((field) => sizes.said(field, now().task));
     const found = (last.values || []).filter((value) => /radius|pressure/.test(value.id)).slice(0, 2);
     const warned = (last.warnings || []).slice(0, 1).map((each) => each.text);
     page.announce([...said, ...found.map((value) => `${value.title} ${value.said.drawn}`), ...warned].join(", "));

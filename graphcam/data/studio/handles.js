@@ -22,11 +22,11 @@ function valueByKey(axis, key, fine) {
 
 const tidy = (value) => Math.round(value * 1e12) / 1e12;
 
-// What is changed with a size: what must stand in the task before, what is the rest of a sum, and what stays such a part
-// of it.
-const changesOf = ({ path, first, sum, with: shares = {} }, value) => ({
+// What is changed with a size: what must stand in the task before, what is the rest of a sum, and what goes with it: such
+// a part of it, beyond something that stays.
+const changesOf = ({ path, first, sum, with: shares = {}, beyond = {} }, value) => ({
   ...first, [path]: value, ...(sum ? { [sum.path]: Math.round((sum.total - value) * 1e9) / 1e9 } : {}),
-  ...Object.fromEntries(Object.entries(shares).map(([other, share]) => [other, tidy(value * share)])),
+  ...Object.fromEntries(Object.entries(shares).map(([other, share]) => [other, tidy((beyond[other] ?? 0) + value * share)])),
 });
 
 // The axis that an arrow moves: of two, the one that goes its way on the screen.
@@ -64,7 +64,7 @@ function handsOf(at, stage, acts) {
   function knobOf(handle) {
     const two = handle.axes.length > 1;
     const knob = make("div", {
-      class: "hand", "data-id": handle.id, role: two ? "group" : null, "aria-label": two ? handle.name : null,
+      class: "hand", "data-id": handle.id, title: handle.name, role: two ? "group" : null, "aria-label": two ? handle.name : null,
       "aria-roledescription": two ? word("slider_2d") : null,
     });
     const picture = drawSvg("svg", "knob", { viewBox: "-22 -22 44 44", "aria-hidden": "true" }, knob);

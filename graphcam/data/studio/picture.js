@@ -2,7 +2,7 @@
 "use strict";
 
 function pictureOf(page) {
-  const { at, word, state, last, decimal, strip, sizes } = page, now = state.get;
+  const { at, word, state, last, strip, sizes } = page, now = state.get;
 
   // --- the drawing and its handles ---------------------------------------------------------------------------------------
 
@@ -140,11 +140,7 @@ function pictureOf(page) {
   // What of a task differs from the present one, in few words.
   function sizesSaid(task) {
     const own = sizes.fields().filter((field) => !alike(valueAt(task, field.path), valueAt(now().task, field.path)));
-    const said = (field) => {
-      const number = shortNumber(valueAt(task, field.path), decimal());
-      return `${field.name} ${number ? `${number} ${field.unit}`.trim() : word("found")}`;
-    };
-    return own.slice(0, 2).map(said).join(", ") || word("now");
+    return own.slice(0, 2).map((field) => sizes.said(field, task)).join(", ") || word("now");
   }
 
   // --- the panels ------------------------------------------------------------------------------------------------------------

@@ -207,16 +207,24 @@ function sizesOf(at, acts) {
     for (const input of row.element.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
   }
 
-  // Whether there is a field for the error; the value stays as it was typed.  An error that belongs to none is told where
-  // something was changed too.
+  // Whether there is a field for the error; the value stays as it was typed.  It is told there if that was changed, else
+  // beside what was: a value that is refused lives in its own field alone.
   function showError({ field, message, remedy }, changed) {
-    const row = (!phases.isEdited(field) && rows.get(field)) || (field?.startsWith("motion.phases") && phases.isThere() ? phases.row : undefined);
-    const there = row || changed.map((path) => (path.startsWith("motion.phases") && !rows.has(path) ? phases.row : rows.get(path))).find(Boolean);
+    const rowAt = (path) => rows.get(path) || (path?.startsWith("motion.phases") && phases.isThere() ? phases.row : undefined);
+    const own = phases.isEdited(field) ? phases.row : rowAt(field), moved = changed.map(rowAt).filter(Boolean);
+    const there = moved.includes(own) ? own : moved[0] || own;
     if (there) refuse(there, [message, remedy].filter(Boolean).join("; "));
-    return Boolean(row);
+    return Boolean(own);
   }
 
   at("form").addEventListener("submit", (event) => event.preventDefault());
 
-  return { show, follow, showError, restore, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field) };
+  // What a task has of a size, in words.
+  function said({ path, name, unit, choices }, task) {
+    const value = valueAt(task, path), number = typeof value === "number" && shortNumber(value, decimal());
+    const chosen = choices?.find((choice) => alike(choice.value, value))?.name;
+    return `${name} ${number ? `${number} ${unit}`.trim() : chosen ?? word("found")}`;
+  }
+
+  return { show, follow, showError, restore, said, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field) };
 }

@@ -4,9 +4,9 @@
 // How long the frame glides to another one [ms]; what fills less of it than this is looked at more closely.
 const GLIDE = 300, TOO_SMALL = 0.6;
 
-// Several views one under another that would be seen smaller than this are looked at from the top, as wide as the stage
-// [pixels for a millimetre].
-const LEGIBLE = 0.6;
+// Of several views one under another so many are looked at, from the top, as are seen no smaller than this [pixels for a
+// millimetre].
+const LEGIBLE = 0.7;
 
 // How many times as large as all of it a detail may be seen.
 const CLOSEST = 20;
@@ -60,23 +60,24 @@ function fillSteps(parent, view, wanted = () => true) {
 
 // --- several views as one, one under another ---------------------------------------------------------------------------------
 
-const GAP = 4;
+const GAP = 7;
 
 // How far down each stands [mm], and a frame about all.
 function stackOf(views) {
   const left = Math.min(...views.map(({ frame }) => frame[0])), right = Math.max(...views.map(({ frame }) => frame[0] + frame[2]));
-  const top = views[0].frame[1], order = [], steps = {}, down = {};
+  const top = views[0].frame[1], order = [], steps = {}, down = {}, ends = [];
   let end = top - GAP;
   for (const { name, frame, ...view } of views) {
     down[name] = end + GAP - frame[1];
     end = down[name] + frame[1] + frame[3];
+    ends.push(end + GAP);
     for (const id of view.order) {
       order.push(`${name}/${id}`);
       steps[`${name}/${id}`] = { ...view.steps[id], down: down[name] };
     }
   }
   const name = views.map((view) => view.name).join("+"), title = views.map((view) => view.title).join("; ");
-  return { name, title, views, order, steps, down, frame: [left, top, right - left, end - top] };
+  return { name, title, views, order, steps, down, ends, frame: [left, top, right - left, end - top] };
 }
 
 // The lines for which a view was drawn, as points; y downwards.
@@ -116,7 +117,7 @@ const mustMove = (shown, wanted) =>
 function stageOf(at) {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const frames = new Map(), wholes = new Map(), details = new Set(), watching = [];
-  let shown = null, filled = null, board = null, gliding = 0;
+  let shown = null, filled = null, board = null, gliding = 0, several = 1;
 
   const svg = () => (shown === "mechanism" ? at("scene") : at("drawing"));
   const size = () => [at("canvas").clientWidth || 1, at("canvas").clientHeight || 1];
@@ -143,7 +144,7 @@ function stageOf(at) {
     at("stage").classList.toggle("detailed", details.has(shown));
     svg().setAttribute("viewBox", frame.join(" "));
     // Nothing is drawn thinner than can be seen.
-    const { scale } = fit(frame), [wide, high] = size(), letter = Math.max(12, Math.min(24, wide / 36, high / 20));
+    const { scale } = fit(frame), [wide, high] = size(), letter = Math.max(12, Math.min(24, wide / 36, high / (8 + 12 * several)));
     svg().style.setProperty("--pixel", `${1 / scale}px`);
     svg().style.setProperty("--letter", `${letter / scale}px`);
     for (const moved of watching) moved();
@@ -187,23 +188,25 @@ function stageOf(at) {
     setFrame([within(x - by.x + w / 2, left, wide) - w / 2, within(y - by.y + h / 2, top, high) - h / 2, w, h]);
   }
 
-  // What is seen first of a picture: all of it, or the top of one that is too high.
-  function firstOf({ frame, down }) {
-    const [wide, high] = size(), [x, y, w, h] = frame;
-    return !down || high / h >= Math.min(LEGIBLE, wide / w) ? frame : [x, y, w, w * high / wide];
+  // What is seen first of a picture: all of it, or of several views the first ones, none of them cut.
+  function firstOf({ frame, ends = [] }) {
+    const [wide, high] = size(), [x, y, w] = frame, least = Math.min(LEGIBLE, wide / w);
+    const end = ends.findLast((bottom) => high / (bottom - y) >= least) ?? ends[0];
+    return ends.length ? [x, y, w, end - y] : frame;
   }
 
   // A view through its frame, which stays while a hand is down, and else as long as it serves.
   function look(picture, { held = false, anew = false } = {}) {
-    const { name, frame: wanted } = picture, other = shown !== name;
+    const { name, frame: wanted, ends } = picture, other = shown !== name;
     shown = name;
+    several = ends?.length || 1;
     wholes.set(name, wanted);
     if (anew) details.delete(name);
     at("drawing").toggleAttribute("hidden", name === "mechanism");
     at("scene").toggleAttribute("hidden", name !== "mechanism");
     const frame = frames.get(name);
     const first = firstOf(picture);
-    if (!frame && first !== wanted) {
+    if (!frame && !alike(first, wanted)) {
       details.add(name);
       setFrame(first);
     } else if (details.has(name)) setFrame(frame);

@@ -74,6 +74,7 @@
     if (is("step", "part", "board", "view", "beside", "inert", "hidden", "only")) page.showDrawing();
     if (is("phi", "view")) page.showPhi();
     if (is("phi")) page.follow();
+    if (is("phi") && !is("task", "station")) page.followPlan();
     if (is("panel", "inert", "hidden")) page.showPanels();
     if (is("pin")) {
       page.pinned = null;

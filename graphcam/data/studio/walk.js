@@ -30,7 +30,7 @@ function walkOf(page) {
   function beside(main = view()) {
     const { beside: chosen, board } = now();
     // On a phone a construction has all of the room, until something is chosen.
-    if (!main || board || chosen === "" || (chosen === null && page.phone.matches && !["mechanism", "profile"].includes(main))) return [];
+    if (!main || board || chosen === "" || (chosen === null && page.phone.matches && main !== "mechanism")) return [];
     const there = (names) => names.filter((name) => name !== main && (last.names ? isThere(name) : name !== "mechanism"));
     const wanted = [chosen === "diagrams" ? DIAGRAMS : chosen ? [chosen] : [], SOURCES[main] || DIAGRAMS, DIAGRAMS].map(there);
     return wanted.find((names) => names.length) || [];
