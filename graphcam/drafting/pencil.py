@@ -67,8 +67,7 @@ class Pencil:
             check_number(quantity, getattr(self, name), say("a finite number of 0 or more"), least=0)
         if self.samples is not None and self.samples < 1:
             raise DesignError(say("pencil samples"), self.samples, say("1 or more, or None for a single drawing"))
-        if self.seed < 0:
-            raise DesignError(say("pencil seed"), self.seed, say("0 or more"))
+        check_number(say("pencil seed"), self.seed, say("0 or more"), least=0)
 
     @property
     def perfect(self) -> bool:

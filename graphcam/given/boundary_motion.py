@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.boundary_parts import (
     SAME_VALUE,
     Part,
+    PolynomialPart,
     SplinePart,
     dwell_after,
     greatest_lift,
@@ -87,6 +88,8 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
     (['rise', 'return', 'dwell'], 30.0)
     """
     given = tuple(parts)
+    for place, part in enumerate(given):
+        check_kind(f"parts[{place}]", part, (PolynomialPart, SplinePart))
     turn = _joined_turn(given)
     runs = turn.runs()
     if len(runs) > 1 and runs[0][1] == runs[-1][1]:

@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import reprlib
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -17,7 +18,7 @@ from graphcam.given.laws import Floats, LawName, Side, canonical_law, law, law_o
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Piece, Piecewise, chunks, dwell_formula, in_phase
 from graphcam.showing import Plottable, value_text
-from graphcam.words import Words, say
+from graphcam.words import Words, bare_caption, say
 
 CLOSURE_TOLERANCE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the maximum)."""
@@ -52,13 +53,31 @@ def _warn_of_degrees() -> None:
     warnings.warn(told, DegreesWarning, stacklevel=level)
 
 
+def angles_of(given: ArrayLike) -> Floats:
+    """Cam angles as an array.
+
+    Raises
+    ------
+    DesignError : they are no numbers
+
+    >>> angles_of("60 deg")
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: cam angle is '60 deg', but must be a number, or an array of numbers
+    """
+    try:
+        return np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        found = bare_caption(reprlib.repr(given))
+        raise DesignError(say("cam angle"), found, say("a number, or an array of numbers")) from None
+
+
 def wrap(phi: ArrayLike) -> Floats:
     """The cam angles in [0, 2 pi); NaN and infinities give NaN.
 
     >>> wrap([-0.25, 7.0]).round(3).tolist()
     [6.033, 0.717]
     """
-    phi = np.asarray(phi, dtype=np.float64)
+    phi = angles_of(phi)
     if phi.size and phi.min() >= 0 and phi.max() < FULL_TURN:
         return phi  # the usual case, and the remainder is dear
     if phi.size == 1 and float(phi.item()).is_integer():
@@ -78,7 +97,7 @@ def cam_angle(angle: ArrayLike, turn: float = 360.0) -> Floats:
     (True, 1.5)
     """
     with np.errstate(invalid="ignore"):
-        return wrap(np.mod(np.asarray(angle, dtype=np.float64), turn) * (FULL_TURN / turn))
+        return wrap(np.mod(angles_of(angle), turn) * (FULL_TURN / turn))
 
 
 def _check_side(side: str) -> None:
@@ -396,7 +415,7 @@ class Motion(Plottable):
 
         At a break the value of the named side is returned; elsewhere the sides agree.  NaN stays NaN.
         """
-        phi = np.asarray(phi, dtype=np.float64)
+        phi = angles_of(phi)
         _check_side(side)
         flat = phi.ravel()
         out = np.empty((4, flat.size))

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.errors import DesignError, check_kind
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart, joined_parts
 from graphcam.given.motion_law import JUMP_BLEND, Law
 from graphcam.given.piecewise_polynomial import PiecewisePolynomial
@@ -106,6 +106,10 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
     return leg_law(name, leg, trusted=False)[1]
 
 
+MAX_BLEND = float(np.nextafter(1, 0))
+"""The largest part of a phase that a blend may take: it leaves something."""
+
+
 @lru_cache(maxsize=64)  # so that phases of the same law share their formulas and are computed together
 def constant_velocity_law(start: float = USUAL_BLENDS[0], end: float = USUAL_BLENDS[1], smooth: int = 2) -> Law:
     """The law of constant velocity between two blends, which lead from rest to it and back to rest.
@@ -130,9 +134,10 @@ def constant_velocity_law(start: float = USUAL_BLENDS[0], end: float = USUAL_BLE
     [0.5, 1.3333333333333333, 0.0, 0.0]
     """
     for place, part in enumerate((start, end)):
-        if not 0 <= part < 1:
-            remedy = say("give the fraction of the phase that the blend takes")
-            raise DesignError(f"blends[{place}]", part, say("from 0 to less than 1"), remedy)
+        remedy = say("give the fraction of the phase that the blend takes")
+        check_number(
+            f"blends[{place}]", part, say("from 0 to less than 1"), remedy, least=0, most=float(np.nextafter(1, 0))
+        )
     if not 1 - (start + end) >= MIN_STEADY_SHARE:
         remedy = say("shorten them: the constant velocity takes what they leave")
         found = say("{start:g} and {end:g}", start=start, end=end)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.follower import FOLLOWER_CLASSES, Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import Motion, wrap
+from graphcam.given.motion import Motion, angles_of, wrap
 from graphcam.given.piecewise import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope, outer_wall
 from graphcam.mechanism.followers import kinematics
@@ -288,7 +288,7 @@ class Cam(Plottable):
         self, write: Callable[..., None], phi: ArrayLike, side: Side, points: int = 0, numbers: int = 0
     ) -> list[Floats]:
         """Arrays of points and of numbers that are computed from the angles and (s, v, a, j), chunk by chunk."""
-        phi = np.asarray(phi, dtype=np.float64)
+        phi = angles_of(phi)
         flat = phi.ravel()
         # Points in one block: finding new memory for every array takes the system up to a fifth of the time.
         arrays = [*np.empty((points, phi.size, 2)), *np.empty((numbers, phi.size))]

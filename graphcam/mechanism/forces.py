@@ -517,6 +517,7 @@ def mean_torque(forces: CamForces) -> float:
     >>> round(gc.mean_torque(gc.CamForces(cam, load, friction=0.1)), 3)
     938.227
     """
+    check_kind("forces", forces, CamForces)
     forces.check()
     nodes, weights = np.polynomial.legendre.leggauss(GAUSS_NODE_COUNT)
     phase, low, high = _parts(forces)

@@ -36,7 +36,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.b_splines import basis_functions
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
@@ -320,11 +320,11 @@ def profile_spline(
     >>> gc.profile_spline(cam)(0).round(3).tolist() == cam.profile(0).round(3).tolist()
     True
     """
+    check_kind("cam", cam, Cam)
     if degree not in get_args(Degree):
         raise DesignError("degree", degree, or_list("2345"))
     least = max(MIN_DEVIATION, MIN_DEVIATION_SHARE * (cam.prime_radius + cam.motion.lift))
-    if not deviation >= least:
-        raise DesignError("deviation", deviation, say("{least:g} mm or more", least=least))
+    check_number("deviation", deviation, say("{least:g} mm or more", least=least), least=least)
     envelope = cam.outer_wall if side == "outer" else cam.envelope
     lost = lost_parts(envelope)
     if lost and not trimmed:

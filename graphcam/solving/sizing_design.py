@@ -10,7 +10,7 @@ from typing import Any
 
 from graphcam import __version__
 from graphcam.constructions.adoption import multiple, steps_up, usual_rounding
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.follower import Translating
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
@@ -128,6 +128,7 @@ def size_task(task: Task | ArcsTask, objective: Objective | None = None) -> Sizi
       active at the unrounded best: pressure angle on the rise, stress
     .best, .front, .sized_task, .to_dict(); .write(folder) writes the files
     """
+    check_kind("task", task, (Task, ArcsTask))
     if isinstance(task, ArcsTask) or task.sizing is None:
         remedy = say("give the ranges of the sizes; the task 'sizing' that comes with graphcam is an example")
         raise DesignError("sizing", say("missing"), say("a table of the task"), remedy)

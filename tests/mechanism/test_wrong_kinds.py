@@ -21,6 +21,19 @@ DESIGNS = gc.Designs(lift=12, rise_angle=1.0, return_angle=1.0, prime_radius=[50
 POINTS = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(1, s=1, v=0, a=0)]
 NONE = np.zeros(0)
 WRONG = {
+    "cam angle is '60 deg', but must be a number, or an array of numbers": lambda: gc.cam_angle("60 deg"),
+    r"cam angle is \[0, 'b'\], but must be a number, or an array": lambda: CAM.profile([0, "b"]),
+    "cam angle is 'a', but must be a number, or an array": lambda: CAM.pressure_angle("a"),
+    "cam angle is 1j, but must be a number, or an array": lambda: MOTION(1j),
+    "task is of the kind str, but must be a Task or ArcsTask": lambda: gc.size_task("cam.toml"),
+    r"parts\[1\] is of the kind int, but must be a PolynomialPart or SplinePart": lambda: gc.boundary_motion(
+        [gc.PolynomialPart(POINTS), 2]
+    ),
+    "forces is of the kind Cam, but must be a CamForces$": lambda: gc.mean_torque(CAM),
+    "cam is of the kind NoneType, but must be a Cam": lambda: gc.profile_spline(None),
+    "deviation is 'x', but must be": lambda: gc.profile_spline(CAM, "x"),
+    r"blends\[0\] is 'a', but must be from 0 to less than 1": lambda: gc.constant_velocity_law("a", 0),
+    "pencil seed is 'x', but must be 0 or more": lambda: gc.Pencil(0.1, seed="x"),
     "follower is of the kind int, but must be a Translating, Oscillating, FlatFaced or OscillatingFlat": lambda: gc.Cam(
         MOTION, 40, 10
     ),
