@@ -1,5 +1,7 @@
 """Task to solution: the constructions, drawn; the same cam, exact; and the two beside each other."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """Solving a task, of whichever kind."""
 
+from __future__ import annotations
+
 from typing import overload
 
 from graphcam.drafting.pencil import Pencil

@@ -5,6 +5,8 @@ the file, ``task.motion()`` is the :class:`~graphcam.given.motion.Motion` in rad
 it is given a meaning, once, whether it comes from a file or from Python.
 """
 
+from __future__ import annotations
+
 import dataclasses
 import math
 from abc import ABC, abstractmethod

@@ -177,9 +177,9 @@ def test_the_sheet_of_the_region_is_drawn(tmp_path):
 
 
 def test_the_sheet_of_the_region_speaks_russian():
-    from graphcam.report.sizing_sheet import BINDING_CAPTIONS
     from russian import english_words
 
+    from graphcam.report.sizing_sheet import BINDING_CAPTIONS
     from graphcam.sheets.model import Text
 
     for name in ("angle and stress", "spring"):
