@@ -30,7 +30,6 @@ from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_num
 from graphcam.solving.solution_warnings import Caution, closed_turn, less_round, title_scale, unit_slips, warnings_of
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
-from graphcam.solving.task_board import board_of
 from graphcam.solving.tolerance_design import ToleranceDesign
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
@@ -254,25 +253,23 @@ class Solution(ShownSolution):
         return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)
 
 
-def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
-    """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
+def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solution:
+    """The solution of a task on a drawing board, whose scales may be other than the task's own.
+
+    pencil : by default an ideal one
 
     Raises
     ------
-    DesignError : there is no such cam, or its follower is not there yet
+    DesignError : there is no such cam
 
     >>> import graphcam as gc
-    >>> solution = solve_motion(gc.builtin_task())
+    >>> from graphcam.solving.task_board import board_of
+    >>> solution = solved_on(board_of(gc.builtin_task()), gc.builtin_task())
     >>> solution.cam.prime_radius, solution.cam.follower
     (44.0, Translating(offset=-10.0, roller_radius=17.0))
     >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
     43.28
     """
-    return solved_on(board_of(task), task, pencil)
-
-
-def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solution:
-    """The solution of a task on a drawing board, whose scales may be other than the task's own."""
     chain = Chain(board, pencil or Pencil())
     try:
         follower = chain.board.follower.built(chain.place, chain.roller_radius)
