@@ -1,5 +1,7 @@
 """The errors of graphcam: each names the quantity, its value, what is allowed, and a remedy."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager

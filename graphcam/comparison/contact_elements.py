@@ -8,6 +8,8 @@ radius that is true to some 1e-5.
 Source: K. L. Johnson, *Contact Mechanics* (1985), chapters 4 and 5; the rest is linear elasticity.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property

@@ -70,16 +70,7 @@ class ChordErrors:
         return s / least, v / least, np.abs(f2) * (abs(end) + rest) / least
 
 
-def has_known_derivatives(law: Law) -> bool:
-    """Whether the derivatives of a law are known: of those that graphcam names, not of one's own or a measured one.
-
-    >>> has_known_derivatives(law_of("cosine"))
-    True
-    """
-    return _fifth_derivatives(law) is not None
-
-
-def _fifth_derivatives(law: Law) -> tuple[Floats, Floats] | None:
+def known_derivatives(law: Law) -> tuple[Floats, Floats] | None:
     """The greatest fifth derivative of each piece of a law, and the jumps of the fourth between them, as declared.
 
     None of a law of one's own, whatever its name.
@@ -100,7 +91,7 @@ def _fifth_derivatives(law: Law) -> tuple[Floats, Floats] | None:
 
 def chord_errors(law: Law, u: Floats) -> ChordErrors:
     """The errors of the chords between the divisions u, from 0 to 1, of a law whose derivatives are known."""
-    known = _fifth_derivatives(law)
+    known = known_derivatives(law)
     assert known is not None
     w, after, before = np.diff(u), law(u[:-1]), law(u[1:], side="left")
     greatest, bends = known
@@ -144,7 +135,7 @@ def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
     phases = [phase for phase in motion.phases if isinstance(phase, MovingPhase)]
     directions = [phase.direction for phase in phases]
     if directions != sorted(directions, reverse=True) or not all(
-        has_known_derivatives(phase.normalised) for phase in phases
+        known_derivatives(phase.normalised) for phase in phases
     ):
         return {}
     divisions = [stations.u[span] for span in stations.phases]

@@ -4,6 +4,8 @@ The default pencil is perfect and deterministic.  A pencil may carry many sample
 has a leading axis of that length, and one run of the arithmetic gives the scatter of all of them.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any, Protocol, Self
 

@@ -1,5 +1,7 @@
 """Scale factors, machine units per millimetre of paper, and the units by their names in readings and files."""
 
+from __future__ import annotations
+
 import math
 import re
 import unicodedata

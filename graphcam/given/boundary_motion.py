@@ -4,6 +4,8 @@ The motion is cut where it turns, so that it becomes one of rises, dwells and re
 pieces of its polynomials.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

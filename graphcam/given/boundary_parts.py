@@ -5,6 +5,8 @@ R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapters 4 and 5; 
 Splines* (rev. ed., 2001), chapters IX and XIII.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -13,6 +13,8 @@ cam, what is left as R2 grows is d cos(b) = R1 - R3.
 Source: the theory of machines of every school, on cams with specified contours (circular arc and tangent cams).
 """
 
+from __future__ import annotations
+
 import cmath
 import math
 from collections.abc import Sequence

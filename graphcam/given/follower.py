@@ -1,5 +1,7 @@
 """The followers of a disk cam, the sense and speed of its turn, permitted angles.  Conventions: see :mod:`graphcam`."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from numbers import Real

@@ -8,6 +8,8 @@ Two of them are for a rise and a fall without a dwell between: the acceleration 
 begins with the same.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Literal, cast

@@ -4,6 +4,8 @@ A spline is fitted to the table and cut where it rests and where it turns, so th
 and returns as any other, whose laws are the pieces of the spline.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

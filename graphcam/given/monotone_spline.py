@@ -16,6 +16,8 @@ coefficients of the velocity that are of one sign on every leg make a motion tha
 scipy's smoothing splines have one stiffness for the whole turn: where it lets a jump pass, it lets pass the noise too.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise

@@ -1,5 +1,7 @@
 """The follower's motion over one revolution: phases one after another, and the values at any cam angle."""
 
+from __future__ import annotations
+
 import inspect
 import math
 import reprlib

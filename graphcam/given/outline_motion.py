@@ -14,6 +14,8 @@ On a straight part with the outward normal n, at the distance p from the cam cen
 w = l n and the right side c Re n - p.  Under a flat face y = Im C + R.  Each is differentiated three times.
 """
 
+from __future__ import annotations
+
 import cmath
 import math
 from collections.abc import Callable, Sequence

@@ -15,6 +15,8 @@ The trace point is the centre of a roller, or the knife edge; its distance from 
 and where it stands how far the follower has moved.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """Laws of polynomials piece by piece: of a leg of a motion by conditions, of conditions alone, of constant velocity."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise

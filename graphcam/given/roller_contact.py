@@ -1,5 +1,7 @@
 """What cam and follower are made of where they touch: a strip of a certain width, between two elastic bodies."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from graphcam.errors import check_number

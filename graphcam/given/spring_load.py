@@ -16,6 +16,8 @@ has the length L(s); with x = L - L(0), or L(0) - L of one that is pressed toget
 c x, and by virtual work M_spring = (F0 + c x) dx/ds.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -13,6 +13,8 @@ which holds for the flattest arc as well.  With u'' = -u, differentiated by phi:
 where S = kappa r + B = sqrt(1 - B'^2) is the cosine of the pressure angle.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

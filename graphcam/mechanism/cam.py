@@ -4,6 +4,8 @@ It is the same for every follower; what differs stands in the follower's
 :class:`~graphcam.mechanism.kinematics.Kinematics`, as values of the frame that are seen here from the turning cam.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field

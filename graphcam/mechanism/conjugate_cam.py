@@ -10,6 +10,8 @@ and the profile lies inside of it by the second roller's radius, as that of the 
 Source: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 2, on positive drive by conjugate cams.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property

@@ -6,6 +6,8 @@ would be negative the cam would have to pull, and the follower leaves it.
 Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, cast, overload

@@ -3,6 +3,8 @@
 Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Self

@@ -15,6 +15,8 @@ Sources: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), on dynami
 with a return spring, follower jump; H. A. Rothbart (ed.), *Cam Design Handbook* (2004), on modelling them.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -42,6 +42,8 @@ force cos alpha - mu sin alpha acts along the motion then; of an arm of the leng
 lengths of the arm, cos alpha - sigma mu (sin alpha - r/l), for its friction acts at the roller's rim.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -6,6 +6,8 @@ half-width sqrt(4 F R/(pi w E')) under the peak pressure sqrt(F E'/(pi w R)).
 Source: K. L. Johnson, *Contact Mechanics* (1985), chapter 4.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import NamedTuple, overload

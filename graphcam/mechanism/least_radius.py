@@ -8,10 +8,12 @@ hollows of a sound cam only widen.  From the radius that the pressure angles nee
 offset or centre distance, until rho of the sharpest place is the roller radius and the permitted one together.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import overload
+from typing import Any, Concatenate, ParamSpec, Protocol, cast, overload
 
 import numpy as np
 
@@ -120,39 +122,31 @@ def _kept(motion: Motion, kin: Kinematics, limits: Limits) -> bool:
 PLACE_TITLES = {"offset": say("offset"), "distance": say("centre distance")}
 
 
-@overload
-def minimum_radius(
-    motion: Motion,
-    follower: Translating,
-    rotation: Rotation = "ccw",
-    rise: float | None = None,
-    return_: float | None = None,
-    offset: float | None = None,
-    rest: bool = True,
-    curvature: float | None = None,
-) -> MinimumRadius: ...
-@overload
-def minimum_radius(
-    motion: Motion,
-    follower: Oscillating,
-    rotation: Rotation = "ccw",
-    rise: float | None = None,
-    return_: float | None = None,
-    offset: float | None = None,
-    rest: bool = True,
-    curvature: float | None = None,
-) -> ArmMinimumRadius: ...
-@overload
-def minimum_radius(
-    motion: Motion,
-    follower: FlatFaced | OscillatingFlat,
-    rotation: Rotation = "ccw",
-    rise: float | None = None,
-    return_: float | None = None,
-    offset: float | None = None,
-    rest: bool = True,
-    curvature: float | None = None,
-) -> FlatMinimumRadius: ...
+_Given = ParamSpec("_Given")
+
+
+class _ByFollower(Protocol[_Given]):
+    """A function of a motion and a follower, which decides in what its least radius is told."""
+
+    @overload
+    def __call__(
+        self, motion: Motion, follower: Translating, *given: _Given.args, **named: _Given.kwargs
+    ) -> MinimumRadius: ...
+    @overload
+    def __call__(
+        self, motion: Motion, follower: Oscillating, *given: _Given.args, **named: _Given.kwargs
+    ) -> ArmMinimumRadius: ...
+    @overload
+    def __call__(
+        self, motion: Motion, follower: FlatFaced | OscillatingFlat, *given: _Given.args, **named: _Given.kwargs
+    ) -> FlatMinimumRadius: ...
+
+
+def _by_follower(function: Callable[Concatenate[Motion, Any, _Given], LeastRadius]) -> _ByFollower[_Given]:
+    return cast(_ByFollower[_Given], function)
+
+
+@_by_follower
 def minimum_radius(
     motion: Motion,
     follower: Follower,

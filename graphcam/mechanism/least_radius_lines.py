@@ -33,6 +33,8 @@ With P = l + R, the vector from the pivot to the cam centre, |P| = c, the point 
 where w is the fraction of a leg from its lower end, and a dash is the derivative by it.
 """
 
+from __future__ import annotations
+
 import cmath
 import math
 from bisect import bisect_right

@@ -17,6 +17,8 @@ A function of numpy's four operations, square roots and tangents takes such quan
 Source: A. Griewank, A. Walther, *Evaluating Derivatives* (2008), chapter 13.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from typing import Any, cast

@@ -17,6 +17,8 @@ Sources: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapter 1
 100:2008, *Guide to the expression of uncertainty in measurement*, section 5.1, for the propagation.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property

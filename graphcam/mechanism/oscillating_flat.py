@@ -11,6 +11,8 @@ Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4, 
 derived from it, and held to envelopes at 50 digits in the tests.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

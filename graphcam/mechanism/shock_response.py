@@ -20,6 +20,8 @@ degree of freedom.  The definition and the axes are theirs; no number of theirs 
 the closed forms above.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -5,6 +5,8 @@ pressure angle and curvature change.  In *making* the cam is what it is, and the
 motion changes.  The derivatives are those of the implicit formulas, not differences.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -14,6 +14,8 @@ programming (scipy); then the exact extremes of that cam say where a limit is ex
 until none is (exchange, as in semi-infinite programming: R. Hettich, K. O. Kortanek, *SIAM Review* 35 (1993)).
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace

@@ -10,6 +10,8 @@ Source: C. Lanni, M. Ceccarelli, G. Figliolini, "An analytical design for three 
 Machine Theory* 37 (2002).
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 from textwrap import wrap

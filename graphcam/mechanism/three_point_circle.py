@@ -1,5 +1,7 @@
 """The circle through three points of a curve, as an approximation of its circle of curvature."""
 
+from __future__ import annotations
+
 from fractions import Fraction
 
 import numpy as np

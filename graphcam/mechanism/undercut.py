@@ -13,6 +13,8 @@ two smooth cusps at m -+ t the crossing lies near m -+ sqrt(3) t.  Crossings of 
 by those of a polygon through points of the profile.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -93,27 +93,13 @@ def with_parts(parts):
 explore(with_parts, parts=Slider("{parts}", {values}, {start}, {shown}))"""
 
 
-def write_notebook(task: Task | ArcsTask) -> NotebookNode:
-    """The notebook of a task, to be executed beside its :func:`task_files`.
+def notebook_of(solution: AnySolution) -> NotebookNode:
+    """The notebook of a solution, with all constructions of its chain, to be executed beside :func:`task_files`.
 
     >>> import graphcam as gc
-    >>> notebook = write_notebook(gc.builtin_task("flat"))
+    >>> notebook = notebook_of(gc.solve(gc.builtin_task("flat")))
     >>> [cell.source.splitlines()[0] for cell in notebook.cells if cell.source.startswith("## ")][:3]
     ['## The task', '## 1. Kinematic diagram', '## 2. Acceleration diagram']
-
-    Raises
-    ------
-    DesignError : there is no such cam
-    """
-    return notebook_of(solve(task))
-
-
-def notebook_of(solution: AnySolution) -> NotebookNode:
-    """The notebook of a solution, with all constructions of its chain; see :func:`write_notebook`.
-
-    >>> import graphcam as gc
-    >>> notebook_of(gc.solve(gc.builtin_task("flat"))) == write_notebook(gc.builtin_task("flat"))
-    True
     """
     toml, tell, title = task_files(solution.task)[TASK_FILE], solution.tell, notebook_title(solution.task)
     warned = (say("**Note:** {warning}", warning=markdown.text(sentence)) for sentence in solution.warnings)
@@ -321,7 +307,7 @@ def write_folder(
     if pdf:
         check_browser(Path(folder, PRINT_FILE))
     progress(say("writing the notebook"))
-    notebook, files = write_notebook(task), task_files(task)
+    notebook, files = notebook_of(solve(task)), task_files(task)
     with whole_folder(folder) as draft:
         for name, text in files.items():
             (draft / name).write_text(text, encoding="utf-8", newline="\n")

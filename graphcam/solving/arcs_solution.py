@@ -1,5 +1,7 @@
 """Task to solution, of a cam of three circular arcs."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

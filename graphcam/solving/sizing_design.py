@@ -1,5 +1,7 @@
 """Sizing a task: the best cam in the ranges of its table ``[sizing]``, the front beside it, and round sizes."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

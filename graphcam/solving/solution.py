@@ -1,5 +1,7 @@
 """Task to solution: the constructions, drawn; the same cam, exact; and the two beside each other."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,7 +30,6 @@ from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_num
 from graphcam.solving.solution_warnings import Caution, closed_turn, less_round, title_scale, unit_slips, warnings_of
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
-from graphcam.solving.task_board import board_of
 from graphcam.solving.tolerance_design import ToleranceDesign
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
@@ -252,29 +253,25 @@ class Solution(ShownSolution):
         return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)
 
 
-def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
-    """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
-
-    Raises
-    ------
-    DesignError : there is no such cam, or its follower is not there yet
-
-    >>> import graphcam as gc
-    >>> solution = solve_motion(gc.builtin_task())
-    >>> solution.cam.prime_radius, solution.cam.follower
-    (44.0, Translating(offset=-10.0, roller_radius=17.0))
-    >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
-    43.28
-    """
-    return solved_on(board_of(task), task, pencil)
-
-
 def solved_on(
     board: Board, task: Task, pencil: Pencil | None = None, done: Mapping[str, Construction] | None = None
 ) -> Solution:
     """The solution of a task on a drawing board, whose scales may be other than the task's own.
 
+    pencil : by default an ideal one
     done : constructions that lie on such a board already, by their names
+
+    Raises
+    ------
+    DesignError : there is no such cam
+
+    >>> import graphcam as gc
+    >>> from graphcam.solving.task_board import board_of
+    >>> solution = solved_on(board_of(gc.builtin_task()), gc.builtin_task())
+    >>> solution.cam.prime_radius, solution.cam.follower
+    (44.0, Translating(offset=-10.0, roller_radius=17.0))
+    >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
+    43.28
     """
     chain = Chain(board, pencil or Pencil(), done=done or {})
     try:

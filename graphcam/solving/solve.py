@@ -1,11 +1,14 @@
 """Solving a task, of whichever kind."""
 
+from __future__ import annotations
+
 from typing import overload
 
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import check_kind
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution, solve_arcs
-from graphcam.solving.solution import Solution, solve_motion
+from graphcam.solving.solution import Solution, solved_on
+from graphcam.solving.task_board import board_of
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.words import say
@@ -39,4 +42,4 @@ def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution:
     check_kind("task", task, (Task, ArcsTask), remedy=say("load_task(file) reads one; a Cam is exact already"))
     if pencil is not None:
         check_kind("pencil", pencil, Pencil, remedy=say("write graphcam.Pencil.of(0.2) for errors of 0.2 mm"))
-    return solve_arcs(task, pencil) if isinstance(task, ArcsTask) else solve_motion(task, pencil)
+    return solve_arcs(task, pencil) if isinstance(task, ArcsTask) else solved_on(board_of(task), task, pencil)

@@ -227,7 +227,7 @@ class SpringDesign:
             along,
             contact.motion,
             TurnCurve(curve.phi, curve.force),
-            said.with_values(formula=contact_formula(self.load)),
+            said.with_values(formula=f"ξ = {_pressing(self.load)}"),
             marked=((least, with_unit(_without_rounding(least.value), along)),),
             wrong=lost,
         )
@@ -406,11 +406,6 @@ TRANSMISSION_CAPTIONS = {
     ),
 }
 """What is said of the transmission coefficient, by what the normal force moves."""
-
-
-def contact_formula(load: SpringLoad | ArmLoad) -> str:
-    """The contact function of a load, as a text."""
-    return f"ξ = {_pressing(load)}"
 
 
 NORMAL_FORMULAS = {

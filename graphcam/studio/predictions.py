@@ -13,7 +13,8 @@ from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError, choice_limit
 from graphcam.given.follower import FlatFaced, Oscillating, OscillatingFlat, Translating
 from graphcam.language import language
-from graphcam.solving.solution import Solution, solve_motion
+from graphcam.solving.solution import Solution
+from graphcam.solving.solve import solve
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
 from graphcam.studio.centre_prediction import centre_foretold
 from graphcam.studio.guesses import JudgedGuess, Prediction, ShownStep
@@ -228,4 +229,4 @@ def solution_of(task: dict[str, Any], spoken: str) -> Solution:
     if not isinstance(found, Task):
         shown = say("a cam of arcs")
         raise DesignError("task", shown, say("one with phases of motion"), say("take another task to predict"))
-    return solve_motion(found)
+    return solve(found)

@@ -3,6 +3,8 @@
 It mirrors a file (degrees, mm); a design is made of its number when it is needed, so that millions need no memory.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields

@@ -1,5 +1,7 @@
 """Many cams of one kind: rise, dwell, return and dwell, with every size a number or one for each cam."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import MISSING, dataclass, fields

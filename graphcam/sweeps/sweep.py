@@ -1,5 +1,7 @@
 """The sweep: quantities of many designs, in chunks that stay in the cache, on as many processors as there are."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor

@@ -1,5 +1,7 @@
 """The assignment of a cam of three circular arcs: a task file with a table ``[arcs]`` in place of a motion."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 

@@ -5,6 +5,8 @@ the file, ``task.motion()`` is the :class:`~graphcam.given.motion.Motion` in rad
 it is given a meaning, once, whether it comes from a file or from Python.
 """
 
+from __future__ import annotations
+
 import dataclasses
 import math
 from abc import ABC, abstractmethod
@@ -99,13 +101,13 @@ class _FollowerTable(ABC):
 
     @property
     def lift_unit(self) -> float:
-        """The unit of the phases' lift in the API [mm or rad]."""
-        return 1.0
+        """The unit of the phases' lift in the API: 1 mm, or a degree [rad]."""
+        return math.radians(1) if self.swings else 1.0
 
     @property
     def column(self) -> str:
         """The name of the column of displacements in a measured table."""
-        return "s_mm"
+        return "s_deg" if self.swings else "s_mm"
 
     def check(self, prime_radius: float) -> None:
         """Refuse sizes that leave no room on a given prime radius [mm], whatever the motion."""
@@ -234,16 +236,6 @@ class OscillatingFlatTable(_FollowerTable):
     def __post_init__(self) -> None:
         check_limits(self)
         self()
-
-    @property
-    def lift_unit(self) -> float:
-        """The unit of the phases' lift [rad]: a degree."""
-        return math.radians(1)
-
-    @property
-    def column(self) -> str:
-        """The name of the column of displacements in a measured table."""
-        return "s_deg"
 
     def __call__(self) -> OscillatingFlat:
         """The follower."""

@@ -1,5 +1,7 @@
 """Task files: TOML in, a task out, or one error that says which field is wrong and why."""
 
+from __future__ import annotations
+
 import dataclasses
 import math
 import re

@@ -1,5 +1,7 @@
 """The exact profile of a cam as files for CAD and machines, without a task; for own laws and measured motions too."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path

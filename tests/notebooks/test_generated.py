@@ -21,7 +21,7 @@ from graphcam.cli import app
 from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.notebooks import changed, notebook_execution
 from graphcam.notebooks.notebook_execution import execute
-from graphcam.notebooks.notebook_folder import to_html, write_notebook
+from graphcam.notebooks.notebook_folder import notebook_of, to_html
 from graphcam.report.sheet_contents import names_of
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.task import SpringTable
@@ -75,7 +75,7 @@ def test_the_task_beside_a_notebook_is_the_task(name, tmp_path):
 
 @over_all("name", TASKS)
 def test_every_construction_has_its_chapter(name):
-    notebook = write_notebook(TASKS[name])
+    notebook = notebook_of(gc.solve(TASKS[name]))
     nbformat.validate(notebook)
     source = "\n".join(cell.source for cell in notebook.cells)
     # Where a cell takes a construction from, there it is.
@@ -83,7 +83,7 @@ def test_every_construction_has_its_chapter(name):
     taken = re.findall(r"show_steps\((solution[^,]*), within=solution", source)
     assert [eval(each, {"solution": solution}).name for each in taken] == names_of(solution)
     assert not any(cell.get("outputs") for cell in notebook.cells)
-    assert nbformat.writes(write_notebook(TASKS[name])) == nbformat.writes(notebook)
+    assert nbformat.writes(notebook_of(gc.solve(TASKS[name]))) == nbformat.writes(notebook)
 
 
 def in_russian(name):
@@ -97,7 +97,7 @@ NAMES = ("graphcam", "None", "drawing.divisions", r"cam.prime\_radius")
 
 @over_all("name", TASKS)
 def test_a_russian_notebook_has_no_english_word_and_no_decimal_point(name):
-    told = [cell.source for cell in write_notebook(in_russian(name)).cells if cell.cell_type == "markdown"]
+    told = [cell.source for cell in notebook_of(gc.solve(in_russian(name))).cells if cell.cell_type == "markdown"]
     text = "\n".join(source for source in told if "```toml" not in source)
     assert english_words(text, NAMES) == set()
     assert re.findall(r"\d\.\d", text) == []
@@ -105,7 +105,7 @@ def test_a_russian_notebook_has_no_english_word_and_no_decimal_point(name):
 
 def test_a_russian_page_has_no_english_word(tmp_path):
     task = in_russian("arcs")
-    page = to_html(execute(write_notebook(task), written(tmp_path, task)), "Кулачок", "ru")
+    page = to_html(execute(notebook_of(gc.solve(task)), written(tmp_path, task)), "Кулачок", "ru")
     # Without the player, which is looked at elsewhere, the task's file and the code of the questions.
     page = re.sub(r"<iframe.*?</iframe>|<style>.*?</style>|<pre.*?</pre>|<annotation.*?</annotation>", "", page,
                   flags=re.DOTALL)  # fmt: skip
@@ -121,18 +121,18 @@ def test_a_russian_page_has_no_english_word(tmp_path):
 
 
 def test_warnings_are_told():
-    source = "\n".join(cell.source for cell in write_notebook(TASKS["undercut"]).cells)
+    source = "\n".join(cell.source for cell in notebook_of(gc.solve(TASKS["undercut"])).cells)
     assert "**Note:** The profile cannot be cut" in source
 
 
 def test_a_title_is_no_markup():
     task = replace(COURSEWORK, title=replace(COURSEWORK.title, name="Cam *A* <b>"))
-    assert write_notebook(task).cells[0].source.startswith("# Cam \\*A\\* \\<b\\>")
+    assert notebook_of(gc.solve(task)).cells[0].source.startswith("# Cam \\*A\\* \\<b\\>")
 
 
 @over_all("name", EXECUTED)
 def test_a_notebook_runs_beside_its_task(name, tmp_path):
-    page = to_html(execute(write_notebook(TASKS[name]), written(tmp_path, TASKS[name])), name)
+    page = to_html(execute(notebook_of(gc.solve(TASKS[name])), written(tmp_path, TASKS[name])), name)
     images = re.findall(r"<img[^>]*>", page)
     assert len(images) >= 8
     assert all(re.search(r'alt="[^"]{20,}"', image) for image in images)
