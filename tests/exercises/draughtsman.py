@@ -420,6 +420,10 @@ def answer(given: Givens | GivenCam, asked: Asked, mistake: str = "") -> float:
     v, s = (float(each[phase, k]) for each in (drawn.v, drawn.s))
     value_v, value_s = v * drawn.mu_v, s * drawn.mu_s
     phi = start + given.angles[phase] * k / given.divisions
+    if asked.construction == "acceleration" and asked.reading == "stations":
+        law, share = LAWS[given.laws[phase]], np.array([k / given.divisions])
+        height = drawn.greatest[phase] / np.abs(bend(law, np.linspace(0, 1, FINE + 1))).max()
+        return (1, -1)[phase] * float(bend(law, share)[0]) * height
     if asked.construction == "acceleration":
         return drawn.greatest[number - 1] if asked.reading == "greatest" else float(drawn.middles[0, number - 1])
     if asked.construction == "differentiation":

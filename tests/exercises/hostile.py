@@ -7,6 +7,7 @@ import os
 import socket
 import zipfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import ezdxf
@@ -133,6 +134,17 @@ def _blocks_in_blocks(document: Drawing) -> None:
 def _block_of_itself(document: Drawing) -> None:
     document.blocks.new("SELF").add_blockref("SELF", (0, 0))
     document.modelspace().add_blockref("SELF", (0, 0))
+
+
+def _blocks_of_each_other(document: Drawing) -> None:
+    document.blocks.new("ONE").add_blockref("OTHER", (0, 0))
+    document.blocks.new("OTHER").add_blockref("ONE", (0, 0))
+    document.modelspace().add_blockref("ONE", (0, 0))
+
+
+def _scaled_block(scale: float, document: Drawing) -> None:
+    document.blocks.new("SIZE").add_lwpolyline([(0, 0), (1, 2), (3, 4)], dxfattribs={"layer": "PITCH"})
+    document.modelspace().add_blockref("SIZE", (0, 0), dxfattribs={"xscale": scale, "yscale": scale})
 
 
 DATA: dict[str, Build] = {
@@ -280,6 +292,21 @@ DATA: dict[str, Build] = {
     "blocks in blocks in blocks": drawing(_blocks_in_blocks),
     "a block of itself": drawing(_block_of_itself),
     "an attribute that leads outside": entities(0, "IMAGE", 8, "PITCH", 1, "/etc/passwd"),
+    "a spline of degree 900": entities(
+        *(0, "SPLINE", 8, "PITCH", 71, 900, 72, 1901, 73, 1000),
+        *(part for k in range(1901) for part in (40, k)),
+        *(part for k in range(1000) for part in (10, k % 7, 20, k % 5)),
+    ),
+    "a block at a scale of 1e300": drawing(partial(_scaled_block, 1e300)),
+    "a block at a scale of nought": drawing(partial(_scaled_block, 0.0)),
+    "two blocks of each other": drawing(_blocks_of_each_other),
+    "an ellipse of a billion turns": entities(
+        *(0, "ELLIPSE", 8, "PITCH", 10, 0, 20, 0, 11, 5, 21, 0, 40, 0.5, 41, -1e9, 42, 1e9)
+    ),
+    "minus signs by the ten thousand": raw("answers.toml", b"{0} = " + "\u2212 ".encode() * 15_000 + b"1"),
+    "outputs nested without end": raw(
+        "answers.ipynb", b'{{"cells": [{{"outputs": ' + b"[" * 50_000 + b"]" * 50_000 + b"}}]}}"
+    ),
     # What lies in the folder.
     "a hard link to another kind": _hard_link,
     "links to links": _long_chain,

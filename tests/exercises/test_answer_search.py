@@ -6,6 +6,7 @@ import csv
 import html
 import io
 import json
+import struct
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,7 +17,7 @@ from issued_variants import answer_lines, course_of, issued, key
 from over_all import fast_first
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course import answer_search
+from graphcam.exercises.course import answer_search, zipped_submissions
 from graphcam.exercises.course.course_folder import HIDDEN_FOLDER, ROSTER_FILE, TEACHER_FOLDER
 from graphcam.exercises.course.handouts import answer_file
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -141,6 +142,21 @@ def test_the_table_of_students_says_of_whom_no_answer_can_be_read(course: Path):
     assert "to check: submissions without readable answers: 1 (s1); see grades.html" in said
     page = html.unescape((course / "out" / "grades.html").read_text(encoding="utf-8"))
     assert page.count("no answer can be read; the student's page says why") == 1
+
+
+def test_bytes_that_stand_in_a_zip_under_one_name_many_times_count_as_often(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """The directory of a zip may name the same bytes again and again; they are not unpacked again and again."""
+    monkeypatch.setattr(zipped_submissions, "MAX_BYTES", 20_000_000)
+    once = packed({"s1/answers.toml": " " * 1_000_000})
+    start, end = once.find(b"PK\1\2"), once.rfind(b"PK\5\6")
+    count, entry = 50, once[start:end]
+    tail = struct.pack("<4s4H2LH", b"PK\5\6", 0, 0, count, count, len(entry) * count, start, 0)
+    (tmp_path / "in.zip").write_bytes(once[:start] + entry * count + tail)
+    whole = pytest.raises(TaskError, match="the size is larger, but must be at most 20000000 bytes unpacked")
+    with whole, zipped_submissions.unpacked(tmp_path / "in.zip"):
+        raise AssertionError("it was unpacked")
 
 
 def test_a_bomb_within_a_zip_takes_neither_room_nor_marks(course: Path, monkeypatch: pytest.MonkeyPatch):

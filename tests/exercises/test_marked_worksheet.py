@@ -281,7 +281,7 @@ def test_a_paper_that_it_is_not_made_for_is_refused(name: str, paper: str, messa
         (
             'layer = "PITCH"',
             'layer = "PITCH"\nplace = "profil"',
-            r"answers\[8\].place.* a view of the worksheet.*'profile'",
+            r"answers\[9\].place.* a view of the worksheet.*'profile'",
         ),
         ('layer = "PITCH"', 'layer = "PITCH"\nmark = "cross"', "one of curve for this answer"),
         ('station = "8"\nunit = "deg"', 'station = "8"\nunit = "deg"\nmark = "length"', "name the view it is drawn in"),

@@ -46,7 +46,7 @@ def test_a_cap_bounds_the_total_and_scales_every_answer():
         assert a.outcome == b.outcome
     assert capped.without_caps == free.total
     assert capped.feedback[-2:] == (
-        "With this mistake a submission earns at most 6.5 of 13 marks.",
+        "With this mistake a submission earns at most 7 of 14 marks.",
         "To keep within that, the marks of all answers, also of right ones, are reduced in the same proportion.",
     )
     assert not any("at most" in said or "reduced" in said for said in free.feedback)

@@ -67,3 +67,9 @@ def test_a_bad_roster_is_told_by_its_line(tmp_path: Path, data: bytes, message: 
     (tmp_path / "roster.csv").write_bytes(data)
     with pytest.raises(TaskError, match=message):
         read_roster(tmp_path / "roster.csv")
+
+
+def test_what_nobody_sees_is_no_part_of_a_name_or_an_id(tmp_path: Path):
+    text = "id,name\n\u200e7\u00a0,\u00a0Анна\u00a0 Берг\u200e\n8,O\u2019Neil\tSe\u0301an\n"
+    (tmp_path / "roster.csv").write_text(text, encoding="utf-8")
+    assert read_roster(tmp_path / "roster.csv") == [Student("7", "Анна Берг"), Student("8", "O\u2019Neil Se\u0301an")]

@@ -169,12 +169,12 @@ def test_parameters_are_the_same_on_every_machine_and_version():
 
 ISSUED = {
     "acceleration-and-scales": [5, 7, 2],
-    "curvature-and-roller": [3, 1, 2],
+    "curvature-and-roller": [0, 1, 2],
     "differentiation": [3, 0, 5],
     "given-cam": [0, 1, 0],
     "integration": [6, 1, 3],
-    "inversion-arm": [5, 0, 4],
-    "inversion-translating": [1, 0, 10],
+    "inversion-arm": [4, 0, 2],
+    "inversion-translating": [1, 0, 7],
     "least-radius": [3, 12, 0],
     "least-radius-offset": [2, 15, 12],
     "pressure-angle": [2, 1, 12],

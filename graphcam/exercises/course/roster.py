@@ -285,4 +285,5 @@ def _printed(name: str) -> str:
     >>> _printed("Eva\\u00a0 Müller\\u200e\\n")
     'Eva Müller'
     """
-    return " ".join("".join(letter for letter in name if unicodedata.category(letter) != "Cf").split())
+    seen = "".join(letter for letter in name if unicodedata.category(letter) != "Cf")
+    return re.sub(r"[^\S\r\n]+", " ", seen).strip()

@@ -19,6 +19,7 @@ from graphcam.exercises.reading.submission_files import BYTE_LIMITS
 MAX_ENTRIES = 100_000
 MAX_BYTES = 4_000_000_000
 """The maximum size of all files together, unpacked; a bomb says less of itself and is stopped all the same."""
+MAX_FILE_BYTES = max(BYTE_LIMITS.values())
 MAX_DEPTH = 4
 """Parts of a path: a student's folder, the assignment in it, the file, and one more."""
 FILE_ENDINGS = (*(Path(name).suffix for name in BYTE_LIMITS), ".txt", ".zip")
@@ -56,7 +57,7 @@ def unpack_one(path: Path, folder: Path) -> None:
     UnreadableError : it is no file of bounded size
     TaskError : it is no zip that can be read, or one that grows beyond all bounds
     """
-    data = read_regular(path, max(BYTE_LIMITS.values()))
+    data = read_regular(path, MAX_FILE_BYTES)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             _unpack(archive, path, folder, MAX_STUDENT_ENTRIES, MAX_STUDENT_BYTES)
@@ -84,20 +85,21 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most
             continue
         if "__MACOSX" in path.parts:
             continue
-        try:
-            (folder / (path if entry.is_dir() else path.parent)).mkdir(parents=True, exist_ok=True)
-            if entry.is_dir():
-                continue
-            if path.suffix.strip().lower() not in FILE_ENDINGS:
-                (folder / path).touch()
-            else:
-                left -= _write(archive, entry, folder / path)
-        # What zlib and the checks of the archive say; a name that is too long, or twice there.
-        except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
-            refused.append(Refused(entry.filename, say("it cannot be unpacked")))
+        is_read = not entry.is_dir() and path.suffix.strip().lower() in FILE_ENDINGS
+        # Counted before it is unpacked: the same bytes may stand there under many names, or fail their check.
+        left -= min(entry.file_size, MAX_FILE_BYTES + 1) if is_read else 0
         if left < 0:
             expected = say("at most {most_bytes} bytes unpacked", most_bytes=most_bytes)
             raise TaskError(str(place), say("the size"), say("larger"), expected, say("look into it by hand"))
+        try:
+            (folder / (path if entry.is_dir() else path.parent)).mkdir(parents=True, exist_ok=True)
+            if is_read:
+                _write(archive, entry, folder / path)
+            elif not entry.is_dir():
+                (folder / path).touch()
+        # What zlib and the checks of the archive say; a name that is too long, or twice there.
+        except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
+            refused.append(Refused(entry.filename, say("it cannot be unpacked")))
     return refused
 
 
@@ -113,10 +115,9 @@ def _unsafe(entry: zipfile.ZipInfo, path: PurePosixPath) -> Caption | None:
     return say("it is encrypted") if entry.flag_bits & 1 else None
 
 
-def _write(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, path: Path) -> int:
-    """Write a file, and how many bytes; of one that is too long one byte more than is read, so that it is told."""
-    limit = max(BYTE_LIMITS.values())
+def _write(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, path: Path) -> None:
+    """Write a file; of one that is too long one byte more than is read, so that it is told."""
     with archive.open(entry) as packed:
-        data = packed.read(limit + 1)
+        data = packed.read(MAX_FILE_BYTES + 1)
     with path.open("xb") as file:
-        return file.write(data)
+        file.write(data)

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphcam.constructions.chain import Chain
 from graphcam.errors import GraphcamError
-from graphcam.exercises.definition.catalogue import LAW_ARGUMENT, READING_ARGUMENT, Change
+from graphcam.exercises.definition.catalogue import LAW_ARGUMENT, READING_ARGUMENT
 from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.key.answer_scatter import Drawn, answer_of, answers_of
@@ -110,25 +110,20 @@ def unlisted_outcomes(
 
 def none_keeps_all_marks(exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float) -> bool:
     """Whether every mistake not listed loses a mark or changes no answer: each is drawn to its first wrong answer."""
-    return not any(
-        _keeps_all_marks(exercise, drawn, keys, bound, misconception(name).change) for name in unlisted_names(exercise)
-    )
-
-
-def _keeps_all_marks(
-    exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float, change: Change
-) -> bool:
-    is_another = False
-    try:
-        chain = change(drawn.right)
-        for asked, right, key, length in zip(exercise.answers, drawn.answers, keys, drawn.lengths, strict=True):
-            answer = answer_of(chain, asked)
-            if not _is_right(asked, key, answer, bound):
-                return False
-            is_another = is_another or _is_another(asked, right, answer, length)
-    except GraphcamError:
-        return False
-    return is_another
+    rows = list(zip(exercise.answers, keys, drawn.answers, drawn.lengths, strict=True))
+    for name in unlisted_names(exercise):
+        try:
+            chain, is_another = misconception(name).change(drawn.right), False
+            for asked, key, right, length in rows:
+                if not _is_right(asked, key, answer := answer_of(chain, asked), bound):
+                    break
+                is_another |= _is_another(asked, right, answer, length)
+            else:
+                if is_another:
+                    return False
+        except GraphcamError:
+            continue
+    return True
 
 
 def _is_right(asked: AskedAnswer, key: Expected, answer: Any, bound: float) -> bool:

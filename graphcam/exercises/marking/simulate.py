@@ -161,39 +161,20 @@ def _name_of(diagnosis: Diagnosis | None, answer_key: AnswerKey, made: str) -> s
     return made if together else diagnosis.misconception
 
 
-@dataclass(frozen=True)
-class _VariantTally:
-    """What is counted of the students of one variant, or of several: careful ones, and those with each mistake.
+_Tallies = dict[tuple[str, str], _Tally]
+"""What is counted of the students of one variant, or of several, by their kind, and a name within it."""
 
-    populations, outside, left_out : as of a :class:`Simulation`
-    unlisted : by field of :class:`UnlistedCount`
-    """
 
-    careful: _Tally
-    populations: dict[str, _Tally]
-    wrong: dict[str, _Tally]
-    outside: _Tally
-    left_out: _Tally
-    unlisted: dict[str, Counter[str]]
+def _no_tallies(exercise: Exercise) -> _Tallies:
+    """Nothing counted yet of the hands, the mistakes, the fields of :class:`UnlistedCount`, and the others."""
+    names = {"population": HANDS, "wrong": exercise.misconceptions, "unlisted": UnlistedOutcomes._fields}
+    named = {(kind, name): _Tally(name if kind == "wrong" else "") for kind, those in names.items() for name in those}
+    return named | {(kind, ""): _Tally() for kind in ("careful", "outside", "left out")}
 
-    @staticmethod
-    def of(exercise: Exercise) -> _VariantTally:
-        populations = {name: _Tally() for name in HANDS}
-        wrong = {name: _Tally(name) for name in exercise.misconceptions}
-        unlisted = {name: Counter[str]() for name in UnlistedOutcomes._fields}
-        return _VariantTally(_Tally(), populations, wrong, _Tally(), _Tally(), unlisted)
 
-    def add(self, other: _VariantTally) -> None:
-        """Add what was counted of another variant."""
-        self.careful.add(other.careful)
-        for name, tally in self.populations.items():
-            tally.add(other.populations[name])
-        for name, tally in self.wrong.items():
-            tally.add(other.wrong[name])
-        self.outside.add(other.outside)
-        self.left_out.add(other.left_out)
-        for name, counts in self.unlisted.items():
-            counts.update(other.unlisted[name])
+def _of_kind(tallies: _Tallies, kind: str) -> dict[str, _Tally]:
+    """The tallies of a kind, by name."""
+    return {name: tally for (each, name), tally in tallies.items() if each == kind}
 
 
 @dataclass(frozen=True)
@@ -285,7 +266,7 @@ def simulate(
     DesignError : there is a student for whom no draw of the parameters can be diagnosed
     OSError : no scheduler answers at the address
     """
-    whole = _VariantTally.of(exercise)
+    whole = _no_tallies(exercise)
     issued: Counter[int] = Counter()
     done: list[tuple[AnswerKey, Answers]] = []
     with executor_of(workers, cluster) as executor:
@@ -293,11 +274,13 @@ def simulate(
         counted = ordered_results(executor, partial(_counted_attempt, exercise, hands), enumerate(course))
         for k, (draw, of_variant, careful_work) in enumerate(counted, 1):
             issued[draw] += 1
-            whole.add(of_variant)
+            for kind, tally in whole.items():
+                tally.add(of_variant[kind])
             done += careful_work
             step(k, variants)
-    careful = whole.careful
-    rows = {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in whole.wrong.items()}
+    careful, wrong = whole["careful", ""], _of_kind(whole, "wrong")
+    populations, unlisted = _of_kind(whole, "population"), _of_kind(whole, "unlisted")
+    rows = {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()}
     counts = (careful.hands, careful.hands - careful.accepted, careful.too_exact)
     draws = tuple(issued[draw] for draw in range(max(issued) + 1))
     return Simulation(
@@ -307,11 +290,11 @@ def simulate(
         *counts,
         rows,
         draws,
-        _outside_count(whole.outside),
-        _outside_count(whole.left_out),
-        UnlistedCount(**{name: dict(sorted(counts.items())) for name, counts in whole.unlisted.items()}),
+        _outside_count(whole["outside", ""]),
+        _outside_count(whole["left out", ""]),
+        UnlistedCount(**{name: dict(sorted(each.named.items())) for name, each in unlisted.items()}),
         copy_gain(exercise, done),
-        {name: HandCount(each.hands, each.hands - each.accepted) for name, each in whole.populations.items()},
+        {name: HandCount(each.hands, each.hands - each.accepted) for name, each in populations.items()},
     )
 
 
@@ -322,34 +305,34 @@ def _outside_count(tally: _Tally) -> OutsideCount:
 
 def _counted_attempt(
     exercise: Exercise, hands: int, job: tuple[int, tuple[Variant, AnswerKey]]
-) -> tuple[int, _VariantTally, list[tuple[AnswerKey, Answers]]]:
+) -> tuple[int, _Tallies, list[tuple[AnswerKey, Answers]]]:
     """The counts of a variant with its number: its draw, the students who did it, the work of a careful one.
 
     That work, with the answer key, is there for the first variants alone: it is marked by the keys of all others.
     """
     k, (variant, answer_key) = job
-    found = _VariantTally.of(exercise)
+    found = _no_tallies(exercise)
     # Never the seed of the hands that the answer key was made from.
     drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
-    found.careful.mark(exercise, answer_key, drawn)
-    for name, tally in found.populations.items():
+    found["careful", ""].mark(exercise, answer_key, drawn)
+    for name, tally in _of_kind(found, "population").items():
         if (table := HandTable(name)) == exercise.hand:
-            tally.add(found.careful)
+            tally.add(found["careful", ""])
         else:
             tally.mark(exercise, answer_key, drawn.by(table.pencil(hands, 1 + k)))
-    for name, tally in found.wrong.items():
+    for name, tally in _of_kind(found, "wrong").items():
         wrongly = misconception(name).change(drawn)
         tally.mark(exercise, answer_key, wrongly)
-        found.left_out.mark(exercise, key_without(answer_key, name), wrongly)
+        found["left out", ""].mark(exercise, key_without(answer_key, name), wrongly)
     perfect = perfect_hands(exercise, drawn.perfect)
     keys = [answer_key.keys[asked.name].expected for asked in exercise.answers]
     outcomes = unlisted_outcomes(exercise, perfect, keys, answer_key.bound)
-    for name, counts in found.unlisted.items():
-        counts.update(getattr(outcomes, name))
+    for name, tally in _of_kind(found, "unlisted").items():
+        tally.named.update(getattr(outcomes, name))
     if k % UNLISTED_STEP == 0:
         listed = [answers_of(exercise, misconception(name).change(drawn)) for name in exercise.misconceptions]
         for _, answers in unlisted_answers(exercise, drawn, listed):
-            found.outside.mark_answers(exercise, answer_key, answers, hands)
+            found["outside", ""].mark_answers(exercise, answer_key, answers, hands)
     careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < GROUP_SIZE else []
     return variant.draw, found, careful_work
 
