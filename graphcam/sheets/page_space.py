@@ -211,7 +211,7 @@ class OpenPage:
 
     def spread(self) -> OpenPage:
         """The page with all that stands on it in the middle, and moved apart where that leaves less room empty."""
-        page, fixed = self.centred(), _fields(self.sheet)
+        page, fixed = self.centred(), taken_boxes(self.sheet, BOX_MARGIN)
         if len(self.views) + len(self.blocks) > MAX_SPREAD or page.empty_share <= MAX_EMPTY_SHARE:
             return page
         inside = self.sheet.content.grown(-BOX_MARGIN)
