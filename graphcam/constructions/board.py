@@ -35,6 +35,10 @@ class FollowerSize:
     value: float | None
 
 
+TURN_SAMPLES = 361
+"""Samples of a turn, to see how far aside a profile is touched."""
+
+
 class DrawnFollower(ABC):
     """A follower on the drawing board: what differs from a stem with a roller is stated by a subclass."""
 
@@ -107,7 +111,9 @@ class DrawnFollower(ABC):
         """The bound [mm] above which the prime radius must lie for the mechanism to close at all."""
 
     @abstractmethod
-    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
+    def reach(
+        self, prime_radius: float, place: float, motion: Motion, roller_radius: float, rotation: Rotation
+    ) -> float:
         """How far the drawing of the profile reaches from the cam centre [mm]."""
 
     def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:

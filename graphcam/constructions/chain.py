@@ -432,11 +432,11 @@ class Chain(Drawings):
         if rollers is None:
             rollers = min((term(rho=r0, r0=r0) for term in board.roller_rule), default=0.0)
         width, height, ratios = board.paper.width, board.paper.height, board.paper.ratios
-        reach = board.follower.reach(r0, self.place, board.motion, max(rollers, 0.0))
+        reach = board.follower.reach(r0, self.place, board.motion, max(rollers, 0.0), board.rotation)
         # The arcs of the phase angles about the curve do not grow with the scale.
         room = min(width, height)
         inner = max(min(width - PHASE_ANGLES_ROOM.real, height - PHASE_ANGLES_ROOM.imag), room / 2)
-        within = board.follower.reach(r0, self.place, board.motion, 0.0)
+        within = board.follower.reach(r0, self.place, board.motion, 0.0, board.rotation)
         return coarsest_scale(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))
 
     def _least_radius(self, place: float | None) -> Construction:

@@ -100,7 +100,9 @@ class DrawnOscillating(DrawnFollower):
         """The bound [mm] above which the arm reaches the prime circle from its pivot."""
         return abs(place - self.arm)
 
-    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
+    def reach(
+        self, prime_radius: float, place: float, motion: Motion, roller_radius: float, rotation: Rotation
+    ) -> float:
         """The radius [mm] of the pivot circle, or of the pitch curve with a roller on it where that is larger."""
         return max(place, prime_radius + self.arm * motion.lift + roller_radius)
 

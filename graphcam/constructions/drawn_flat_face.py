@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import sense_caption
-from graphcam.constructions.board import DrawnFollower, FollowerSize, Values
+from graphcam.constructions.board import TURN_SAMPLES, DrawnFollower, FollowerSize, Values
 from graphcam.constructions.cam_analysis import AnalysisGivens
 from graphcam.constructions.face_analysis import face_analysis
 from graphcam.constructions.flat_inversion import flat_inversion
@@ -23,8 +23,6 @@ from graphcam.given.motion import FULL_TURN, Motion
 
 STEM_LENGTH, GUIDE_HEIGHT, FACE_HALF_LENGTH = 34.0, 12.0, 17.0
 """The sizes of the kinematic diagram: stem, height of its guide above the face, and half the face [mm]."""
-TURN_SAMPLES = 361
-"""Samples of a turn, to see how far aside a profile is touched."""
 FLAT_FACE_CAPTION = say(
     "The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B."
 )
@@ -79,7 +77,9 @@ class DrawnFlatFaced(DrawnFollower):
         """The bound 0: any prime radius closes the mechanism."""
         return 0.0
 
-    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
+    def reach(
+        self, prime_radius: float, place: float, motion: Motion, roller_radius: float, rotation: Rotation
+    ) -> float:
         """The reach [mm], a little beyond the highest position of the face or the farthest contact point."""
         s, v, _, _ = motion(np.linspace(0.0, FULL_TURN, TURN_SAMPLES))
         return max(1.2 * (prime_radius + motion.lift), float(np.hypot(prime_radius + s, v).max()))

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from graphcam.constructions.axes import sense_caption
-from graphcam.constructions.board import DrawnFollower, FollowerSize
+from graphcam.constructions.board import TURN_SAMPLES, DrawnFollower, FollowerSize
 from graphcam.constructions.curvature import curvature
 from graphcam.constructions.kinematic_sketch import (
     BASE_RADIUS,
@@ -25,7 +25,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Limits, OscillatingFlat, Rotation, sense
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion
+from graphcam.given.motion import FULL_TURN, Motion
 
 SKETCH_PIVOT, SKETCH_OFFSET, SKETCH_FACE, SKETCH_SWING = 44 + 0j, 4.0, 58.0, 0.16
 """The sizes of the kinematic diagram: the pivot, an offset, how far the face reaches [mm], and its swing [rad]."""
@@ -97,9 +97,15 @@ class DrawnOscillatingFlat(DrawnFollower):
         """The bound [mm] above which the line through the pivot passes the cam centre on the right side."""
         return max(-self.face_offset, 0.0)
 
-    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
-        """The radius [mm] of the pivot circle, beyond which no face need be drawn."""
-        return place
+    def reach(
+        self, prime_radius: float, place: float, motion: Motion, roller_radius: float, rotation: Rotation
+    ) -> float:
+        """The radius [mm] of the pivot circle, or the farthest contact where the face is longer."""
+        s, v, _, _ = motion(np.linspace(0.0, FULL_TURN, TURN_SAMPLES))
+        angle, turned = np.arcsin((prime_radius + self.face_offset) / place) + s, sense(rotation) * v
+        # The contact is the foot on the face of the pole, which lies on the line of centres.
+        along = turned / (1 + turned) * np.cos(angle)
+        return max(place, float(np.hypot(place * np.sin(angle) - self.face_offset, place * along).max()))
 
     def built(self, place: float | None, roller_radius: float) -> OscillatingFlat:
         """The oscillating flat face with these sizes."""

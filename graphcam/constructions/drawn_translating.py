@@ -83,7 +83,9 @@ class DrawnTranslating(DrawnFollower):
         """The bound [mm] above which the line of motion cuts the prime circle."""
         return abs(place)
 
-    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
+    def reach(
+        self, prime_radius: float, place: float, motion: Motion, roller_radius: float, rotation: Rotation
+    ) -> float:
         """The maximum radius of the pitch curve and the radius of a roller on it [mm]."""
         return prime_radius + motion.lift + roller_radius
 

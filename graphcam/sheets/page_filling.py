@@ -3,8 +3,8 @@
 The views are cut into pages in the order of the work, so none stands on a page before one that it needs.  Of all cuts
 into the fewest pages that is taken whose cost is least, which sums
 
-- over all pages, what the largest empty rectangle takes of the frame beyond ``MAX_EMPTY_SHARE``, squared; of the last
-  page, which may be empty, by ``LAST_PAGE_WEIGHT``;
+- over all pages, what the largest empty rectangle takes of the frame beyond ``MAX_EMPTY_SHARE`` when all that stands on
+  the page has been moved apart, squared; of the last page, which may be empty, by ``LAST_PAGE_WEIGHT``;
 - over all cuts, ``PARTING_COST`` for each axis that views on both sides share.
 
 Then diagrams stand as far apart as no further page is needed for it.

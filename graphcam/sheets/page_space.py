@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import product
 
+import numpy as np
+
 from graphcam.sheets.formats import Format
 from graphcam.sheets.model import Box, bounding_box
 from graphcam.sheets.packing import MESH, Preference, Room, middle, prefer_high
+from graphcam.sheets.sampling import Floats
 from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.sheets.tables import Block
 from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, clusters, panel_origins, shares
@@ -23,7 +26,7 @@ MAX_EMPTY_SHARE = 0.12
 """The maximum empty rectangle that is left as it is, as a part of the frame."""
 MAX_SPREAD = 5
 """More views and tables than this stand close enough."""
-SPREAD_ROUNDS, SPREAD_SHARES, SPREAD_GAIN = 2, (0.5, 0.25, 0.75), 5e-3
+SPREAD_ROUNDS, SPREAD_PARTS, SPREAD_GAIN = 2, (0.5, 0.25, 0.75), 5e-3
 """How often all that stands on a page is moved apart, to which parts of its free way, and the gain that is worth it."""
 
 
@@ -36,42 +39,29 @@ def free_rooms(sheet: Format) -> tuple[tuple[float, float], ...]:
     >>> free_rooms(Format("A3", "gost"))
     ((393.0, 216.0), (323.0, 230.0), (208.0, 258.0), (138.0, 272.0), (96.0, 285.0))
     """
-    rooms = list(_rooms_between(sheet.content.grown(-BOX_MARGIN), taken_boxes(sheet, BOX_MARGIN)))
+    inside, taken = sheet.content.grown(-BOX_MARGIN), taken_boxes(sheet, BOX_MARGIN)
+    rooms = list(zip(*(sides.tolist() for sides in _rooms_between(inside, taken)), strict=True))
     larger = [any(w >= wide and h >= high and (w, h) != (wide, high) for w, h in rooms) for wide, high in rooms]
     return tuple(sorted({room for room, other in zip(rooms, larger, strict=True) if not other}, reverse=True))
 
 
-def _rooms_between(inside: Box, taken: Sequence[Box]) -> Iterator[tuple[float, float]]:
-    """Widths and heights [mm] of the highest free boxes between the sides of boxes."""
-    sides = product([inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)])
-    yield from ((right - left, _highest(inside, left, right, taken)) for left, right in sides if right > left)
-
-
-def _largest_area(inside: Box, taken: Sequence[Box]) -> float:
-    """The area of the largest free box between boxes [mm²]."""
-    lefts, rights = [inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)]
-    largest = 0.0
-    for wide, left in sorted(((right - left, left) for left, right in product(lefts, rights)), reverse=True):
-        # The others are narrower.
-        if wide * inside.height <= largest:
-            break
-        largest = max(largest, wide * _highest(inside, left, left + wide, taken))
-    return largest
+def _rooms_between(inside: Box, taken: Sequence[Box]) -> tuple[Floats, Floats]:
+    """Widths and heights (k,) [mm] of the highest free boxes between the sides of boxes, of one at least."""
+    bottom, top, left, right = np.array(sorted((box.bottom, box.top, box.left, box.right) for box in taken)).T
+    starts, ends = np.meshgrid(np.append(right, inside.left), np.append(left, inside.right))
+    starts, ends = starts[starts < ends], ends[starts < ends]
+    # From below upwards: up to where each strip is taken by the boxes across it.
+    across = (left < ends[:, None]) & (starts[:, None] < right)
+    levels = np.maximum.accumulate(np.where(across, top, inside.bottom), axis=1)
+    below = np.hstack([np.full((starts.size, 1), inside.bottom), levels[:, :-1]])
+    gaps = np.where(across, bottom - below, 0.0).max(axis=1)
+    return ends - starts, np.maximum(gaps, inside.top - levels[:, -1])
 
 
 @cache
 def _fields(sheet: Format) -> tuple[Box, ...]:
     """The boxes of a sheet's own fields."""
     return tuple(taken_boxes(sheet, 0.0))
-
-
-def _highest(inside: Box, left: float, right: float, kept: Sequence[Box]) -> float:
-    """The height of the largest free part of a strip between two verticals [mm]."""
-    across = sorted((box for box in kept if box.left < right and left < box.right), key=lambda box: box.bottom)
-    level, highest = inside.bottom, 0.0
-    for box in across:
-        highest, level = max(highest, box.bottom - level), max(level, box.top)
-    return max(highest, inside.top - level)
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,8 +181,8 @@ class OpenPage:
         """The share of the frame's inside that the largest rectangle without views, tables and fields takes."""
         views = [panel.box.moved(origin) for panel, origin in self.views.values()]
         blocks = [block.box.moved(at) for block, at in self.blocks]
-        inside = self.sheet.content
-        return _largest_area(inside, [*views, *blocks, *_fields(self.sheet)]) / inside.area
+        wide, high = _rooms_between(self.sheet.content, [*views, *blocks, *_fields(self.sheet)])
+        return float((wide * high).max()) / self.sheet.content.area
 
     def centred(self) -> OpenPage:
         """The page with all that stands on it moved together, so that what is left empty lies around it."""
@@ -211,8 +201,9 @@ class OpenPage:
 
     def spread(self) -> OpenPage:
         """The page with all that stands on it in the middle, and moved apart where that leaves less room empty."""
-        page, fixed = self.centred(), _fields(self.sheet)
-        if len(self.views) + len(self.blocks) > MAX_SPREAD or page.empty_share <= MAX_EMPTY_SHARE:
+        page, fixed = self.centred(), taken_boxes(self.sheet, BOX_MARGIN)
+        share = page.empty_share
+        if len(self.views) + len(self.blocks) > MAX_SPREAD or share <= MAX_EMPTY_SHARE:
             return page
         inside = self.sheet.content.grown(-BOX_MARGIN)
         for _, group in product(range(SPREAD_ROUNDS), range(len(self._groups()))):
@@ -223,12 +214,15 @@ class OpenPage:
                 continue
             for way in (1j, 1.0 + 0j):
                 low, high = _free_way(own, others, inside, way)
-                shifts = (way * (low + share * (high - low)) for share in SPREAD_SHARES)
+                shifts = (way * (low + part * (high - low)) for part in SPREAD_PARTS)
                 tried = [page.moved(groups[group], by) for by in shifts if abs(by) > MESH]
-                best = min(tried, key=lambda each: each.empty_share, default=page)
-                if best.empty_share < page.empty_share - SPREAD_GAIN:
-                    page = best
+                left = [each.empty_share for each in tried]
+                if tried and min(left) < share - SPREAD_GAIN:
+                    share = min(left)
+                    page = tried[left.index(share)]
                     break
+            if share <= MAX_EMPTY_SHARE:
+                break
         return page
 
     def _groups(self) -> list[StandingGroup]:

@@ -59,7 +59,7 @@ def cam_angle_scale(
 ) -> Scale:
     """The scale of the cam angle [rad/mm]: the usual one, or a finer one with broken dwells where parts were narrow.
 
-    usual : degrees/mm, for a whole turn;  longest : that the axis and its usual pole may be on a page [mm of paper]
+    usual : degrees/mm, for a whole turn;  longest : that the axis and a pole may be on a page [mm of paper]
     breaks : whether dwells may be broken
     long : whether the axis is rather longer than usual than its parts narrower than 5 mm
     """

@@ -84,6 +84,15 @@ def test_angle_and_reach_are_read(rotation, offset):
     assert float(drawn.value("face_far")) == pytest.approx(reach.far, abs=0.3)
 
 
+@pytest.mark.parametrize(("rotation", "offset"), CASES)
+def test_a_profile_that_is_touched_beyond_the_pivot_circle_reaches_so_far(rotation, offset):
+    board = swinging_face_board(arm_motion("3-4-5", 40.0), face_offset=offset, rotation=rotation)
+    cam = gc.Cam(board.motion, board.follower.built(150.0, 0.0), 70.0, rotation)
+    farthest = np.hypot(*np.moveaxis(cam.profile(np.linspace(0, 2 * math.pi, 4001)), -1, 0)).max()
+    assert farthest > 160
+    assert board.follower.reach(70.0, 150.0, board.motion, 0.0, rotation) == pytest.approx(farthest, rel=5e-3)
+
+
 def test_the_line_from_the_pivot_touches_its_circle():
     drawn = chain_of("cw", 10.0)["inversion"]
     starts, pivots = drawn.acts["starts"].points, drawn.acts["pivots"].points

@@ -8,7 +8,16 @@ import pytest
 
 import graphcam as gc
 from graphcam.report.documents import contents_of, drawing_of
-from graphcam.report.fewer_sheets import FEWER_SHEETS_NOTE, ONE_SHEET_NOTE, fewer_sheets
+from graphcam.report.fewer_sheets import (
+    FEWER_PARTS_NOTE,
+    FEWER_SHEETS_NOTE,
+    LONGER_POLES_NOTE,
+    ONE_SHEET_NOTE,
+    fewer_sheets,
+    larger_paper,
+)
+from graphcam.solving.diagram_sizes import narrowest_part
+from graphcam.solving.task_board import board_of
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import DrawingTable, LimitsTable, Task, TranslatingTable
 from graphcam.tasks.task_file import builtin_task
@@ -73,3 +82,28 @@ def test_diagrams_that_belong_together_are_brought_onto_one_sheet():
 @pytest.mark.parametrize("name", ["coursework", "arm"])
 def test_one_sheet_is_never_too_many(name):
     assert fewer_sheets(contents_of(gc.solve(gc.builtin_task(name))), 1) is None
+
+
+def narrow(drawing: DrawingTable) -> Task:
+    """A task with a return that is short and divided into many parts."""
+    phases = RiseTable(150, 20, "3-4-5"), ReturnTable(24, 4, "3-4-5"), DwellTable(36), ReturnTable(150, 16, "3-4-5")
+    return replace(ROLLER, motion=MotionTable(phases), drawing=drawing)
+
+
+def test_fewer_parts_are_told_where_no_format_has_room_for_wide_ones():
+    task = narrow(DrawingTable("A1", divisions=36))
+    hint = next(larger_paper(gc.solve(task)))
+    assert hint.template == FEWER_PARTS_NOTE.template
+    board = board_of(replace(task, drawing=DrawingTable("A1", divisions=hint.values["divisions"])))
+    assert narrowest_part(board.stations) / board.mu_phi.per_mm == pytest.approx(hint.values["wider"])
+    assert hint.values["width"] < 4 <= hint.values["wider"]
+
+
+def test_the_format_on_which_poles_are_long_enough_is_told():
+    task = replace(ROLLER, drawing=DrawingTable("A4"))
+    hint = list(larger_paper(gc.solve(task)))[-1]
+    assert hint.template == LONGER_POLES_NOTE.template
+    assert min(board_of(task).poles) == hint.values["pole"] < 30
+    assert min(board_of(replace(task, drawing=DrawingTable(hint.values["larger"]))).poles) >= 30
+    given = replace(task, drawing=DrawingTable("A4", poles=(15, 15)))
+    assert all(each.template != LONGER_POLES_NOTE.template for each in larger_paper(gc.solve(given)))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 import shapely
@@ -9,6 +11,7 @@ from over_all import over_seeds
 from overlaps import overlaps, place
 
 from graphcam.drafting.marks import Role
+from graphcam.sheets import labels
 from graphcam.sheets.label_candidates import label_along, label_around, label_over
 from graphcam.sheets.model import ArcEntity, Box, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners, spans_in_box
@@ -47,6 +50,26 @@ def test_label_takes_the_preferred_side_of_an_empty_paper() -> None:
         middle = complex(corners(text).mean()) - (100 + 75j)
         assert abs(np.angle(middle / towards)) < np.radians(15)
         assert abs(middle) < 6
+
+
+def crossings(seed: int) -> int:
+    """How often leaders of labels cross whose points stand close together among bold lines."""
+    random = np.random.default_rng(seed)
+    points = 100 + 75j + random.uniform(-9, 9, 14) + 1j * random.uniform(-9, 9, 14)
+    y = np.arange(60, 91, 2.0)
+    walls = Strokes(80 + 1j * y, 120 + 1j * y, Role.RESULT)
+    placed = place([label_around(complex(at), f"{k}", 2.5, 1j) for k, at in enumerate(points)], [walls], FRAME)
+    leaders = [shapely.LineString([(z.real, z.imag) for z in (e.starts[0], e.ends[0])])
+               for group in placed for e in group if isinstance(e, Strokes)]  # fmt: skip
+    return sum(a.crosses(b) for a, b in combinations(leaders, 2))
+
+
+def test_labels_whose_leaders_cross_choose_once_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    again = [crossings(seed) for seed in range(6)]
+    monkeypatch.setattr(labels, "ORDERS_OF_CROSSED", ())
+    once = [crossings(seed) for seed in range(6)]
+    assert all(new <= old for new, old in zip(again, once, strict=True))
+    assert sum(again) <= 0.5 * sum(once)
 
 
 def test_label_in_a_crowd_goes_far_and_gets_a_leader() -> None:

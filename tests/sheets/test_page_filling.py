@@ -19,7 +19,7 @@ from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.layout import SheetPart, compose, compose_parts, profile_room
 from graphcam.sheets.model import Box, Drawing, Strokes, Text
 from graphcam.sheets.page_filling import DIAGRAM_GAPS, MAX_EMPTY_SHARE, fill
-from graphcam.sheets.page_space import OpenPage, free_rooms
+from graphcam.sheets.page_space import OpenPage, blank_page, free_rooms
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.sheets.tables import Block, Table, table_blocks
@@ -75,6 +75,18 @@ def test_everything_stands_once_inside_the_border_and_on_nothing_else(sheet):
                 there = panel.points + at
                 across, up = (box.left < there.real) & (there.real < box.right), (box.bottom < there.imag)
                 assert not np.any(across & up & (there.imag < box.top))
+
+
+def test_what_stands_on_a_page_is_moved_apart_where_that_leaves_less_room_empty():
+    sheet = Format("A4", "gost")
+    upper, lower, table = view("a", 100, 40), view("b", 60, 30), block(50, 20)
+    close = {"a": (upper, 40 + 220j), "b": (lower, 40 + 170j)}
+    page = OpenPage(sheet, blank_page(sheet).room, [], [], close, [(table, 130 + 170j)])
+    apart = page.spread()
+    assert apart.empty_share < 0.7 * page.empty_share
+    boxes = [panel.box.moved(at) for panel, at in apart.views.values()] + [table.box.moved(apart.blocks[0][1])]
+    assert not any(a.meets(b) for a, b in combinations([*boxes, *taken_boxes(sheet, 0.0)], 2))
+    assert all(sheet.content.holds(box) for box in boxes)
 
 
 def test_tables_stand_six_millimetres_apart():

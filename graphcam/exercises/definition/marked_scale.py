@@ -32,6 +32,8 @@ def on_marked_paper(board: Board, drawing: MarkedDrawing) -> Board:
     DesignError : sizes that the task leaves open cannot be found
     """
     chain = Chain(board)
-    reach = board.follower.reach(chain.prime_radius, chain.place, board.motion, max(chain.roller_radius, 0.0))
+    reach = board.follower.reach(
+        chain.prime_radius, chain.place, board.motion, max(chain.roller_radius, 0.0), board.rotation
+    )
     scale = standard_scale(2 * reach, MARKED_PAPERS[drawing.format].square - 2 * PROFILE_MARGIN, board.paper.ratios)
     return replace(board, paper=replace(board.paper, held={**board.paper.held, PROFILE.name: scale.per_mm}))
