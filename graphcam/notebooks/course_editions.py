@@ -33,7 +33,6 @@ from graphcam.workers import executor_of, ordered_results
 STUDENT_FOLDER, TEACHER_FOLDER = "student", "teacher"
 CHECK_PATTERN = re.compile(r"^(?P<answer>your_\w+) = None.*\n(?P<question>\w+)\.check\((?P=answer)\)\s*$")
 """A cell in which the student puts a number."""
-QUESTION_PATTERN = re.compile(r"^(\w+) = Question\b", re.MULTILINE)
 MODEL_ANSWERS_PATTERN = re.compile(r"\s*<details><summary>Model answers</summary>.*?</details>", re.DOTALL)
 CLOSING_QUESTION_PATTERN = re.compile(r"^(\d+)\. ", re.MULTILINE)
 FAILED_LINE_PATTERN = re.compile(r"^-+> *\d+ (.*)$", re.MULTILINE)
