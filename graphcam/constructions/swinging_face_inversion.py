@@ -46,8 +46,6 @@ from graphcam.words import say_in
 
 FACE_OVERHANG = 6.0
 """How far a face is drawn beyond the places where it is touched in the course of a turn [mm]."""
-PIVOT_OVERHANG = 4.0
-"""How far the line of the face is drawn beyond its pivot where the angle at rest is marked [mm]."""
 ARC_OVERHANG = 0.05
 """How far the arcs across the circle of the tangents are drawn beyond them [rad]."""
 ANGLE_SHARE = 0.3

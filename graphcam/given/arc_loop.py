@@ -27,8 +27,8 @@ STRAIGHT = 1e-9
 """Points bend so little from a straight line, as a part of their distance."""
 CENTRAL = 1e-4
 """A centre as near to the cam centre [mm] is there."""
-CORRECTIONS = 5
-"""So often the parts are made to touch; each time what is left is squared."""
+CORRECTIONS, STEP = 5, 1e-6
+"""So often the parts are made to touch; each time what is left is squared.  Steps of sizes, for slopes [mm or rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,78 +134,77 @@ def _on_one(points: Complexes) -> bool:
 
 
 def _part(run: Complexes) -> Floats:
-    """What a run of points lies on: centre and signed radius (3,), or normal and distance of a line (2,), outwards."""
-    chord = run[-1] - run[0]
+    """What a run of points lies on: angle of the normal and distance of a line (2,), or radius and centre of a circle.
+
+    The radius is negative of a hollow; a circle about the cam centre has nothing else (1,).
+    """
+    chord, middle = run[-1] - run[0], run.mean()
     normal = 1j * chord / abs(chord) if chord else 0j
-    middle = run.mean()
     if chord and np.abs(((run - run[0]) * np.conj(normal)).real).max() <= ON_CIRCLE:
         return np.array([np.angle(normal), (middle * np.conj(normal)).real])
     inner = run[1:-1] - middle if run.size > MIN_POINTS else run - middle
     across = np.stack([2 * inner.real, 2 * inner.imag, np.ones(inner.size)], axis=-1)
     x, y, rest = np.linalg.lstsq(across, np.abs(inner) ** 2, rcond=None)[0]
-    bends = (np.conj(np.diff(run)[:-1]) * np.diff(run)[1:]).imag.sum()
-    centre = complex(x, y) + middle
-    radius = math.sqrt(rest + x * x + y * y)
+    centre, radius = complex(x, y) + middle, math.sqrt(rest + x * x + y * y)
     if abs(centre) < CENTRAL:
-        return np.array([0.0, 0.0, radius])
-    return np.array([centre.real, centre.imag, radius if bends < 0 else -radius])
+        return np.array([radius])
+    bends = (np.conj(np.diff(run)[:-1]) * np.diff(run)[1:]).imag.sum()
+    return np.array([radius if bends < 0 else -radius, centre.real, centre.imag])
+
+
+def _circle(size: Floats) -> tuple[complex, float]:
+    """Centre and radius of a circle."""
+    return (complex(*size[1:]) if size[1:].size else 0j), float(size[0])
 
 
 def _touching(sizes: list[Floats]) -> list[OutlineArc] | None:
     """The parts, with their sizes corrected so that each touches the next; None if they make a corner."""
     if len(sizes) == 1:
-        x, y, radius = sizes[0].tolist()
-        return [OutlineArc(complex(x, y), radius, 0j, complex(x + radius, y), 1 + 0j)]
-    pairs = [(k - 1, k) for k in range(len(sizes))]
-    if any(sizes[i].size == sizes[k].size == 2 for i, k in pairs):
-        return None
-    places = np.cumsum([0, *(size.size for size in sizes)])
-    values = np.concatenate(sizes)
-    # What stands about the cam centre stays there.
-    loose = np.flatnonzero(np.concatenate([[each.size < 3 or bool(each[:2].any())] * each.size for each in sizes]))
-    loose = np.union1d(loose, [places[k] + 2 for k, each in enumerate(sizes) if each.size == 3])
+        centre, radius = _circle(sizes[0])
+        return [OutlineArc(centre, radius, 0j, centre + radius, 1 + 0j)]
+    ends, values = np.cumsum([size.size for size in sizes])[:-1], np.concatenate(sizes)
 
-    def split(values: Floats) -> list[Floats]:
-        return np.split(values, places[1:-1])
+    def pairs(values: Floats) -> list[tuple[Floats, Floats]]:
+        """Every part and the one before it."""
+        parts = np.split(values, ends)
+        return [(parts[k - 1], part) for k, part in enumerate(parts)]
 
     def gaps(values: Floats) -> Floats:
-        """How far every part misses the next [mm]."""
-        parts = split(values)
-        return np.array([_gap(parts[i], parts[k]) for i, k in pairs])
+        """How far every part misses the one before it [mm]."""
+        return np.array([_gap(*pair) for pair in pairs(values)])
 
+    if any(one.size == other.size == 2 for one, other in pairs(values)):
+        return None
     for _ in range(CORRECTIONS):
         gap = gaps(values)
-        slopes = np.array([(gaps(values + STEP * row) - gap) / STEP for row in np.eye(values.size)[loose]]).T
-        values[loose] -= np.linalg.lstsq(slopes, gap, rcond=None)[0]
-    parts, found = split(values), list[OutlineArc]()
-    for i, k in pairs:
-        normal, point = _joint(parts[i], parts[k])
-        if abs(abs(normal) - 1) > CORNER:
+        slopes = np.array([(gaps(values + STEP * row) - gap) / STEP for row in np.eye(values.size)]).T
+        values = values - np.linalg.lstsq(slopes, gap, rcond=None)[0]
+    found = list[OutlineArc]()
+    for one, other in pairs(values):
+        normal = _normal(one, other)
+        if not abs(abs(normal) - 1) <= CORNER:
             return None
-        if parts[k].size == 2:
-            found.append(OutlineArc(0j, math.inf, normal, point, normal))
-        else:
-            found.append(OutlineArc(complex(*parts[k][:2]), float(parts[k][2]), 0j, point, normal / abs(normal)))
+        normal /= abs(normal)
+        centre, radius = _circle(other if other.size != 2 else one)
+        point = centre + radius * normal
+        straight = other.size == 2
+        found.append(OutlineArc(*((0j, math.inf, normal) if straight else (centre, radius, 0j)), point, normal))
     return found
 
 
-STEP = 1e-6
-"""Of sizes, for slopes [mm or rad]."""
-
-
 def _gap(one: Floats, other: Floats) -> float:
-    if one.size == other.size == 3:
-        return math.hypot(*(other[:2] - one[:2])) - abs(one[2] - other[2])
-    line, circle = (one, other) if one.size == 2 else (other, one)
-    return circle[0] * math.cos(line[0]) + circle[1] * math.sin(line[0]) + circle[2] - line[1]
+    for line, circle in ((one, other), (other, one)):
+        if line.size == 2:
+            centre, radius = _circle(circle)
+            return (centre * np.exp(-1j * line[0])).real + radius - line[1]
+    (c1, r1), (c2, r2) = _circle(one), _circle(other)
+    return abs(c2 - c1) - abs(r1 - r2)
 
 
-def _joint(one: Floats, other: Floats) -> tuple[complex, complex]:
-    """The common normal, outwards, and the place where two parts touch."""
-    if one.size == other.size == 3:
-        normal = complex(*(other[:2] - one[:2])) / (one[2] - other[2])
-    else:
-        angle = (one if one.size == 2 else other)[0]
-        normal = complex(math.cos(angle), math.sin(angle))
-    circle = one if one.size == 3 else other
-    return normal, complex(*circle[:2]) + circle[2] * normal / abs(normal)
+def _normal(one: Floats, other: Floats) -> complex:
+    """The common normal of two parts, outwards; of circles that do not touch it has another length than 1."""
+    for line in (one, other):
+        if line.size == 2:
+            return complex(np.exp(1j * line[0]))
+    (c1, r1), (c2, r2) = _circle(one), _circle(other)
+    return (c2 - c1) / (r1 - r2) if r1 != r2 else 0j

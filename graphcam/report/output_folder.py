@@ -197,12 +197,13 @@ def _write_profiles(
         return {}, {}
     try:
         spline = solution.profile_spline if "profile_dxf" in wanted else None
-        names = write_curves(solution.cam, spline, folder, wanted) | _write_other_curves(solution, folder, wanted)
+        names = write_curves(solution.cam, spline, folder, wanted)
     except DesignError as error:
         # Where nothing can be cut the solution warns of it; what was asked for is refused.
         if error.quantity.startswith("part."):
             raise
         return {}, {}
+    names |= _write_other_curves(solution, folder, wanted)
     if spline is None:
         return names, {}
     told = {"degree": spline.degree, "control_points": len(spline.control), "deviation": spline.deviation}

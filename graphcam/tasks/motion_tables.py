@@ -251,7 +251,8 @@ class RadiiTable:
 class OutlineTable:
     """``[outline]``: in place of [motion], [arcs] and [cam], points of a cam are given, as it lies at the cam angle 0.
 
-    file : a table with the columns x_mm,y_mm from the cam centre, or angle_deg,radius_mm; or a drawing, "cam.dxf"
+    file : a table with the columns x_mm,y_mm from the cam centre, or angle_deg,radius_mm, in any unit; or a drawing,
+        "cam.dxf"; where it is of arcs and lines, the motion is exact
     tolerance : mm, how far the follower may pass the points; about 4.5 times the scatter of a measured cam
     layer : of a drawing with several closed loops; left out: the only one
     """

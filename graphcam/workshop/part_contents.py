@@ -47,6 +47,17 @@ class PartContents:
         return self.solution.task.part or PartTable()
 
     @cached_property
+    def cam(self) -> Cam | ConjugateCam | None:
+        """The cam; None of three arcs.
+
+        Raises
+        ------
+        DesignError : as for :func:`second_cam`
+        """
+        first = None if isinstance(self.solution, ArcsSolution) else self.solution.cam
+        return second_cam(self.solution) if self.second else first
+
+    @cached_property
     def outline(self) -> Outline:
         """The exact profile; the second cam of a pair has the zero mark of the first, so that one key times both.
 
@@ -55,8 +66,7 @@ class PartContents:
         DesignError : no profile can be cut
         """
         first = outline_of(self.solution)
-        second = second_cam(self.solution) if self.second else None
-        return replace(of_cam(second), zero=first.zero) if second else first
+        return replace(of_cam(self.cam), zero=first.zero) if self.second and self.cam else first
 
     @cached_property
     def groove(self) -> Groove | None:
@@ -285,19 +295,12 @@ def _cutter(part: CamPart) -> list[Caption]:
     return [told]
 
 
-def _roller(contents: PartContents) -> float:
-    """The radius of the roller on this cam [mm]."""
-    second = second_cam(contents.solution) if contents.second else None
-    solution = contents.solution
-    own = solution.motion if isinstance(solution, ArcsSolution) else solution.cam
-    return second.roller_radius if second else own.roller_radius
-
-
 def _contact_caption(contents: PartContents) -> Caption:
     solution = contents.solution
     if not isinstance(solution, ArcsSolution) and not solution.cam.kinematics.takes_roller:
         return say("The profile works with a flat-faced follower.")
-    if not (roller := _roller(contents)):
+    roller = (solution.motion if isinstance(solution, ArcsSolution) else contents.cam or solution.cam).roller_radius
+    if not roller:
         return say("The profile works with a knife edge.")
     return say("The profile works with a roller of radius {radius} mm, and with no other.", radius=size(roller))
 
@@ -341,9 +344,9 @@ def _lift(solution: AnySolution) -> Words:
 
 def _sizes(contents: PartContents) -> list[tuple[Words, Words]]:
     solution = contents.solution
-    if contents.second and (second := second_cam(solution)):
-        at = say("({x}, {y}) mm", x=size(second.at[0]), y=size(second.at[1]))
-        return [(say("second roller, with the follower lowest"), at), (say("roller radius"), _mm(second.roller_radius))]
+    if isinstance(cam := contents.cam, ConjugateCam):
+        at = say("({x}, {y}) mm", x=size(cam.at[0]), y=size(cam.at[1]))
+        return [(say("second roller, with the follower lowest"), at), (say("roller radius"), _mm(cam.roller_radius))]
     if isinstance(solution, ArcsSolution):
         motion = solution.motion
         return [(say("prime radius r₀"), _mm(motion.prime_radius)), (say("roller radius"), _mm(motion.roller_radius))]

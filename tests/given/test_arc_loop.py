@@ -124,6 +124,8 @@ def test_other_cams_are_no_arcs(law, count):
 def test_a_corner_or_a_disc_about_the_cam_centre_is_no_loop_of_arcs():
     around = np.exp(1j * np.linspace(0, 2 * math.pi, 400, endpoint=False))
     assert arc_loop(30 * around) is None
+    lens = 40 * np.exp(1j * np.linspace(-0.7, 0.7, 100)) - 25
+    assert arc_loop(np.concatenate([lens[:-1], -lens[:-1]])) is None
     square = np.concatenate([20j**k * (1 + 1j + 2j * np.arange(50) / 50) for k in range(4)])
     assert arc_loop(square) is None
 

@@ -134,5 +134,10 @@ def test_the_files_show_the_other_curve_and_no_solid_without_its_groove(tmp_path
     assert np.hypot(x, y).min() == pytest.approx(60, abs=1e-9)
     second = contents(PAIR).solution.write(tmp_path / "pair", kinds)
     assert second["profile_second_dxf"] == "profile-second.dxf"
+    # A roller that fits no hollow of its path is told, with the working drawing or without.
+    phases = RiseTable(60, 30, "rectangular"), ReturnTable(60, 30, "rectangular"), DwellTable(240)
+    hollow = gc.Task("cw", MotionTable(phases), STEM, cam=CamTable(22.0), part=GROOVE)
+    with pytest.raises(DesignError, match="the hollow of its path"):
+        gc.solve(hollow).write(tmp_path / "hollow", kinds)
     with pytest.raises(DesignError, match="groove_depth"):
         contents(GROOVE).solution.write(tmp_path / "solid", ["profile_step"])
