@@ -49,6 +49,7 @@ from graphcam.drafting.meaning import (
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest_scale, ratio_text, standard_scale
 from graphcam.drafting.telling import STATION, run
+from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
 
@@ -163,6 +164,11 @@ ARC_HALF_ANGLE = 0.2
 
 
 def _draw(measured: ArmAngles) -> list[Step]:
+    if not np.isfinite(measured.first("psi0")):
+        # Beside a flat triangle the arcs may miss each other on the paper, and nothing can be shown.
+        limit = say("such that its arc meets that of the centre distance on the paper")
+        remedy = say("make the triangle of arm, centre distance and prime radius less flat")
+        raise DesignError("prime radius", measured.givens.prime_radius, limit, remedy)
     k = shown_station(measured)
     scale = plan_scale(measured, k)
     scales = VelocityScale(scale, measured.givens.omega)
