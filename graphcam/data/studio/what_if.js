@@ -137,11 +137,14 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
     draw();
   }
 
+  // A piece without any design has no curves.
   function joined(found, piece) {
     if (!found) return piece;
-    const values = (id) => piece.curves.find((curve) => curve.id === id)?.values || piece.at.map(() => null);
+    const curves = new Map([...found.curves, ...piece.curves].map((curve) => [curve.id, curve]));
+    const valuesIn = (each, id) => each.curves.find((curve) => curve.id === id)?.values || each.at.map(() => null);
     return {
-      ...found, at: [...found.at, ...piece.at], curves: found.curves.map((curve) => ({ ...curve, values: [...curve.values, ...values(curve.id)] })),
+      ...found, at: [...found.at, ...piece.at], limits: { ...found.limits, ...piece.limits },
+      curves: [...curves.values()].map((curve) => ({ ...curve, values: [...valuesIn(found, curve.id), ...valuesIn(piece, curve.id)] })),
     };
   }
   size.addEventListener("change", () => {
