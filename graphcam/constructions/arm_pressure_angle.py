@@ -163,12 +163,21 @@ ARC_HALF_ANGLE = 0.2
 """How far to both sides of the cam centre the arcs that find it are drawn [rad]."""
 
 
-def _draw(measured: ArmAngles) -> list[Step]:
+def check_centre(measured: ArmAngles) -> None:
+    """Check that the cam centre was found: beside a flat triangle the arcs may miss each other on the paper.
+
+    Raises
+    ------
+    DesignError : it was not
+    """
     if not np.isfinite(measured.first("psi0")):
-        # Beside a flat triangle the arcs may miss each other on the paper, and nothing can be shown.
         limit = say("such that its arc meets that of the centre distance on the paper")
         remedy = say("make the triangle of arm, centre distance and prime radius less flat")
         raise DesignError("prime radius", measured.givens.prime_radius, limit, remedy)
+
+
+def _draw(measured: ArmAngles) -> list[Step]:
+    check_centre(measured)
     k = shown_station(measured)
     scale = plan_scale(measured, k)
     scales = VelocityScale(scale, measured.givens.omega)
