@@ -49,6 +49,7 @@ from graphcam.drafting.meaning import (
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest_scale, ratio_text, standard_scale
 from graphcam.drafting.telling import STATION, run
+from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
 
@@ -162,7 +163,21 @@ ARC_HALF_ANGLE = 0.2
 """How far to both sides of the cam centre the arcs that find it are drawn [rad]."""
 
 
+def check_centre(measured: ArmAngles) -> None:
+    """Check that the cam centre was found: beside a flat triangle the arcs may miss each other on the paper.
+
+    Raises
+    ------
+    DesignError : it was not
+    """
+    if not np.isfinite(measured.first("psi0")):
+        limit = say("such that its arc meets that of the centre distance on the paper")
+        remedy = say("make the triangle of arm, centre distance and prime radius less flat")
+        raise DesignError("prime radius", measured.givens.prime_radius, limit, remedy)
+
+
 def _draw(measured: ArmAngles) -> list[Step]:
+    check_centre(measured)
     k = shown_station(measured)
     scale = plan_scale(measured, k)
     scales = VelocityScale(scale, measured.givens.omega)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from typing import Any
 
+from graphcam.constructions.arm_pressure_angle import check_centre
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.pressure_angle import shown_station
@@ -27,7 +28,7 @@ from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import board_of
 from graphcam.studio.views_request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.task import Task
+from graphcam.tasks.task import OscillatingTable, Task
 from graphcam.words import say
 
 MAX_HEIGHT = 2000.0
@@ -230,7 +231,12 @@ def _cached_solution(task: str, spoken: str, kept: str, station: int | None) -> 
     board = held_board(board_of(whole), given, hold)
     check_heights(board)
     board = board if station is None else replace(board, station=station)
-    return solved_on(board, given, pencil, _drawn_diagrams(_DiagramBoard.of(board)) if pencil.perfect else None)
+    done = _drawn_diagrams(_DiagramBoard.of(board)) if pencil.perfect else None
+    solution = solved_on(board, given, pencil, done)
+    # What is drawn only where it is looked at must not be refused there: then it would be the state already.
+    if isinstance(given.follower, OscillatingTable):
+        check_centre(solution.chain["pressure_angle"])
+    return solution
 
 
 @dataclass(frozen=True)

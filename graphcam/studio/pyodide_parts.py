@@ -9,6 +9,7 @@ The archives are not compressed: what carries them compresses the whole, which i
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import io
 import json
@@ -44,9 +45,32 @@ SUMS_FILE = "SHA256SUMS"
 _NUMPY_PATTERN = re.compile(r"numpy-[^-]+-.*\.(whl|tar\.gz)")
 
 
-UNUSED_FOLDERS = frozenset({"tests", "testing", "fft", "f2py", "include", "_examples", "_pyinstaller", "pkgconfig"})
+UNUSED_FOLDERS = frozenset(
+    {
+        *("tests", "testing", "f2py", "include", "_examples", "_pyinstaller", "pkgconfig"),
+        *("fft", "doc"),
+    }
+)
 UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
-"""Endings of NumPy's files for tests, compilers, type checkers or installers, and transforms that no drawing needs."""
+UNUSED_MODULES = "_multiarray_tests.", "_simd.", "_umath_tests.", "_rational_tests.", "_struct_ufunc_tests.", "_operand"
+"""Of NumPy what is for tests, compilers, type checkers or installers, and what no drawing needs."""
+SPOKEN_MODULES = "_add_newdocs.py", "_add_newdocs_scalars.py"
+"""Modules of NumPy that only say what it does, and are empty here."""
+UNUSED_LIBRARIES = frozenset(
+    {
+        *("multiprocessing", "unittest", "xml", "xmlrpc", "wsgiref", "pydoc.py", "doctest.py", "pdb.py", "bdb.py"),
+        *("idlelib", "lib2to3", "difflib.py", "_pyio.py", "pickletools.py", "optparse.py", "imaplib.py", "mailbox.py"),
+        *("smtplib.py", "nntplib.py", "ftplib.py", "telnetlib.py", "poplib.py", "cgi.py", "cgitb.py"),
+        *("trace.py", "pstats.py", "profile.py", "cProfile.py", "aifc.py", "sunau.py", "wave.py", "modulefinder.py"),
+        *("plistlib.py", "socketserver.py", "turtle.py", "tabnanny.py", "pyclbr.py", "zipapp.py"),
+        *("shelve.py", "sndhdr.py", "pipes.py", "mailcap.py", "xdrlib.py", "crypt.py", "compileall.py", "timeit.py"),
+    }
+)
+"""Of Python's own library what nothing here asks for."""
+KEPT_CODECS = re.compile(
+    r"encodings/(__init__|aliases|ascii|utf_\w+|latin_1|cp(437|866|125\d)|idna|punycode|raw_\w+)\.py"
+)
+"""Encodings of its files, and of those that somebody may open."""
 ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots", "photo", "sweeps"})
 """The rooms of graphcam that the studio does not need: above it, and sweeps and photographs beside it."""
 UNREAD_FILES = frozenset(
@@ -87,11 +111,36 @@ def numpy_archive(name: str, content: bytes) -> bytes:
     name, content : a wheel, or a package of conda for Emscripten
     """
     packed = _of_wheel(content) if name.endswith(".whl") else _of_conda(content)
-    return stored_zip({path: file for path, file in packed if _is_used(PurePosixPath(path))})
+    used = {path: file for path, file in packed if _is_used(PurePosixPath(path))}
+    return stored_zip({path: b"" if path.endswith(SPOKEN_MODULES) else file for path, file in used.items()})
 
 
 def _is_used(path: PurePosixPath) -> bool:
-    return not (UNUSED_FOLDERS & set(path.parts[:-1]) or path.name.endswith(UNUSED_ENDINGS))
+    unused = path.name.endswith(UNUSED_ENDINGS) or path.name.startswith(UNUSED_MODULES)
+    return not (UNUSED_FOLDERS & set(path.parts[:-1]) or unused)
+
+
+def library_archive(content: bytes) -> bytes:
+    """What is needed of Python's own library, from its zip."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        names = [name for name in archive.namelist() if name.partition("/")[0] not in UNUSED_LIBRARIES]
+        kept = [name for name in names if not name.startswith("encodings/") or KEPT_CODECS.fullmatch(name)]
+        return stored_zip({name: archive.read(name) for name in kept})
+
+
+def without_words(source: bytes) -> bytes:
+    """A module without its comments and docstrings, which are half of it and nobody reads in a browser.
+
+    >>> without_words(b"def two():\\n    'The number.'\\n    return 2  # always")
+    b'def two():\\n    return 2'
+    """
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            # A string that stands alone says something, also of the name before it.
+            said = [one for one in node.body if isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant)]
+            node.body = [one for one in node.body if one not in said] or [ast.Pass()]
+    return ast.unparse(tree).encode()
 
 
 def _of_wheel(content: bytes) -> Iterator[tuple[str, bytes]]:
@@ -126,7 +175,8 @@ def _of_graphcam() -> Iterator[tuple[str, bytes]]:
         if inside.parts[0] in ROOMS_ABOVE or path.name in UNREAD_FILES:
             continue
         if path.suffix in KEPT_ENDINGS and path.is_file():
-            yield f"graphcam/{inside.as_posix()}", path.read_bytes()
+            content = path.read_bytes()
+            yield f"graphcam/{inside.as_posix()}", without_words(content) if path.suffix == ".py" else content
 
 
 def _of_library(name: str) -> dict[str, bytes]:

@@ -14,7 +14,7 @@ from typing import Any
 from graphcam.files import whole_file, whole_folder
 from graphcam.language import ENGLISH
 from graphcam.studio.engine import answer
-from graphcam.studio.pyodide_parts import engine_archive, pyodide_parts
+from graphcam.studio.pyodide_parts import STANDARD_LIBRARY_FILE, engine_archive, library_archive, pyodide_parts
 from graphcam.studio.studio_page import page, script_names
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.tasks.arcs_task import ArcsTask
@@ -47,6 +47,7 @@ def engine_parts(pyodide: Path) -> dict[str, bytes]:
     TaskError : a file of them is not there, or not known
     """
     parts = {**pyodide_parts(pyodide), ENGINE_FILE: engine_archive()}
+    parts[STANDARD_LIBRARY_FILE] = library_archive(parts[STANDARD_LIBRARY_FILE])
     # Without the time: the same parts make the same bytes.
     return {name: gzip.compress(part, 9, mtime=0) for name, part in parts.items()}
 

@@ -8,6 +8,7 @@ from random_requests import random_request
 from studio_tasks import plain_task
 
 from graphcam.studio.engine import answer
+from graphcam.studio.task_paths import changed_task
 
 MANY = int(os.environ.get("GRAPHCAM_RANDOM_REQUESTS", "800"))
 """So many are asked by the slow test; ten thousand take a quarter of an hour of the processor."""
@@ -50,3 +51,14 @@ def test_other_questions_are_answered_too(ask):
         found = answer({**random_request(seed), "ask": ask, "text": str(random_request(seed)["task"])})
         json.dumps(found, allow_nan=False)
         assert found["ok"] or found["error"]["message"]
+
+
+def test_an_arm_whose_arcs_miss_each_other_is_told_beside_its_prime_radius():
+    """Beside a flat triangle no cam centre is found on the paper: an error, not a failure of the program."""
+    arm = {"follower.arm": 12.5, "follower.distance": 150.0, "follower.roller_radius": 0.0}
+    small = {"motion.phases[0].lift": 5, "motion.phases[2].lift": 5, "limits.pressure_angle_rise": 80}
+    for radius, drawn in ((137.55, False), (139.0, True)):
+        task = changed_task(plain_task("arm"), {**arm, **small, "cam.prime_radius": radius})
+        told = answer({"task": task, "views": []})
+        assert told["ok"] is answer({"task": task, "views": [], "told": True})["ok"] is drawn
+        assert drawn or told["error"]["field"] == "cam.prime_radius"

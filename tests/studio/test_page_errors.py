@@ -104,3 +104,15 @@ def test_a_file_that_is_no_task_is_refused_and_a_good_one_opened(opened, served)
     settled(page)
     assert page.locator("#written").inner_text() == "b.toml"
     assert page.evaluate("() => studio.state.past()") == 1
+
+
+def test_a_border_that_is_refused_from_the_drawing_is_red_in_the_bar(opened):
+    """A knob of a diagram moves borders too: the message stands under the bar, and the border that was moved is red."""
+    page = opened()
+    page.evaluate("() => studio.change({ 'motion.phases[1].angle': 500, 'motion.phases[2].angle': -395 })")
+    page.wait_for_selector("#phases-error:visible")
+    red = "() => [...document.querySelectorAll('#form [aria-invalid]')].map((input) => input.dataset.key)"
+    assert page.evaluate(red) == ["border/1"]
+    page.click("#undo")
+    settled(page)
+    assert page.evaluate(red) == []

@@ -259,3 +259,13 @@ def test_what_if_shows_curves_on_which_the_present_cam_lies(opened, served):
     assert abs(task_of(page)["follower"]["offset"]) <= 0.5
     # Another offset lies on the same curves.
     assert len([each for each in served.asked if each["ask"] == "sweep"]) == len(sweeps)
+
+
+def test_what_if_draws_curves_that_begin_where_there_is_no_design(opened):
+    """A slider of a point of the arcs begins at places that make no cam; the curves are there beyond them."""
+    page = opened("arcs")
+    page.click("#tab-what-if")
+    page.select_option("#sweep-size", value="arcs.D[0]")
+    page.wait_for_selector("figure.sweep .dot")
+    settled(page)
+    assert page.locator("figure.sweep .dot").count() == page.locator("figure.sweep").count() > 0

@@ -80,7 +80,7 @@ def page(browser, one_file):
 
 
 def test_one_file_opens_without_a_request(page, one_file):
-    assert one_file.stat().st_size <= 14 * MEGABYTE
+    assert one_file.stat().st_size <= 12 * MEGABYTE
     foreign = [url for url in page.asked if not url.startswith((one_file.as_uri(), "blob:"))]
     assert foreign == []
     assert page.wrong == []

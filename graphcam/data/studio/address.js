@@ -28,19 +28,21 @@ function differences(base, task, path = "", found = {}) {
 
 // --- letters -----------------------------------------------------------------------------------------------------------------
 
+// Base64 as it may stand in an address.
+const base64Of = (bytes) => btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+const bytesOf = (letters) => Uint8Array.from(atob(letters.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
+
 async function through(bytes, stream) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
 async function packed(data) {
   const bytes = await through(new TextEncoder().encode(JSON.stringify(data)), new CompressionStream("deflate-raw"));
-  return btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+  return base64Of(bytes);
 }
 
 async function unpacked(letters) {
-  const text = atob(letters.replace(/-/g, "+").replace(/_/g, "/"));
-  const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
-  return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+  return JSON.parse(new TextDecoder().decode(await through(bytesOf(letters), new DecompressionStream("deflate-raw"))));
 }
 
 // --- state and address ---------------------------------------------------------------------------------------------------

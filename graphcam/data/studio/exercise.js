@@ -6,9 +6,6 @@
 
 // --- right or wrong ------------------------------------------------------------------------------------------------------
 
-const bytesOf = (letters) => Uint8Array.from(atob(letters.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
-const lettersOfBytes = (bytes) => btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_");
-
 // Bits of a hash that are kept, as many as the engine keeps.
 const HASH_BITS = 48;
 
@@ -17,7 +14,7 @@ async function hashOfAnswer(name, answer, { offset, width }, salt, iterations) {
   const cell = Math.floor((answer - offset) / width);
   const key = await crypto.subtle.importKey("raw", new TextEncoder().encode(`${name}:${cell}`), "PBKDF2", false, ["deriveBits"]);
   const bits = await crypto.subtle.deriveBits({ name: "PBKDF2", hash: "SHA-256", salt, iterations }, key, HASH_BITS);
-  return lettersOfBytes(new Uint8Array(bits));
+  return base64Of(new Uint8Array(bits));
 }
 
 // By the answers' names {right, hint}, for all that are numbers; without WebCrypto the engine does it.

@@ -81,21 +81,19 @@ function stepPanelOf(element, words, go) {
 
 // --- the values -----------------------------------------------------------------------------------------------------------
 
-function valuesTable(values, pinned, words) {
-  const other = new Map((pinned || []).map((value) => [value.id, value]));
-  const head = ["quantity", "drawn", "exact", pinned ? "pinned" : "bound"];
-  return make("table", { class: "compare" },
-    make("thead", {}, make("tr", {}, head.map((name) => make("th", { scope: "col", class: name === "pinned" ? "pin" : null, text: words[name] })))),
-    make("tbody", {}, values.map((value) => make("tr", {},
-      make("th", { scope: "row", text: value.title }),
-      make("td", { class: "now", text: value.said.drawn }),
-      make("td", { text: value.said.exact }),
-      pinned ? make("td", { class: "pin", text: other.get(value.id)?.said.drawn ?? "–" })
-        : make("td", { class: "bound", text: value.said.bound ?? "" })))));
+// A column is its name, its class, and what it says of a value.
+const pinnedColumn = (pinned) => ["pinned", "pin", ({ id }) => pinned.find((value) => value.id === id)?.said.drawn ?? "–"];
+
+function valuesTable(values, columns, words) {
+  const head = [["quantity", null], ...columns].map(([name, kind]) => make("th", { scope: "col", class: kind === "pin" ? kind : null, text: words[name] }));
+  const rowOf = (value) => make("tr", {}, make("th", { scope: "row", text: value.title }), columns.map(([, kind, said]) => make("td", { class: kind, text: said(value) })));
+  return make("table", { class: "compare" }, make("thead", {}, make("tr", {}, head)), make("tbody", {}, values.map(rowOf)));
 }
 
 function valuesPanelOf(element, words) {
   const place = make("div", { class: "scrolled", tabindex: "0", role: "region", "aria-label": words.values });
   element.append(place, make("p", { class: "hint", text: words.values_about }));
-  return (values, pinned) => place.replaceChildren(valuesTable(values, pinned, words));
+  const columns = [["drawn", "now", ({ said }) => said.drawn], ["exact", null, ({ said }) => said.exact]];
+  const bound = ["bound", "bound", ({ said }) => said.bound ?? ""];
+  return (values, pinned) => place.replaceChildren(valuesTable(values, [...columns, pinned ? pinnedColumn(pinned) : bound], words));
 }

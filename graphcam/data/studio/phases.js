@@ -192,7 +192,7 @@ function phasesOf({ change, slide, refuse, isRefused, word, decimal }) {
   }
 
   return {
-    element, row, show, follow, reset, isThere: () => element.isConnected,
+    element, row, show, follow, reset, borderAt: (path) => bar.querySelector(`[data-key="border/${keysOf(path ?? "")[2]}"]`), isThere: () => element.isConnected,
     isEdited: (path) => Boolean(path?.startsWith("motion.phases") && row.input?.isConnected),
   };
 }

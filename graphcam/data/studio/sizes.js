@@ -213,6 +213,8 @@ function sizesOf(at, acts) {
     const rowAt = (path) => rows.get(path) || (path?.startsWith("motion.phases") && phases.isThere() ? phases.row : undefined);
     const own = phases.isEdited(field) ? phases.row : rowAt(field), moved = changed.map(rowAt).filter(Boolean);
     const there = moved.includes(own) ? own : moved[0] || own;
+    // A knob of the drawing has moved a border of the bar.
+    if (there === phases.row && !there.input?.isConnected) there.input = phases.borderAt(changed[0]);
     if (there) refuse(there, [message, remedy].filter(Boolean).join("; "));
     return Boolean(own);
   }

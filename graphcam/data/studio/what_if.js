@@ -137,11 +137,14 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
     draw();
   }
 
+  // A piece without any design has no curves.
   function joined(found, piece) {
     if (!found) return piece;
-    const values = (id) => piece.curves.find((curve) => curve.id === id)?.values || piece.at.map(() => null);
+    const curves = new Map([...found.curves, ...piece.curves].map((curve) => [curve.id, curve]));
+    const valuesIn = (each, id) => each.curves.find((curve) => curve.id === id)?.values || each.at.map(() => null);
     return {
-      ...found, at: [...found.at, ...piece.at], curves: found.curves.map((curve) => ({ ...curve, values: [...curve.values, ...values(curve.id)] })),
+      ...found, at: [...found.at, ...piece.at], limits: { ...found.limits, ...piece.limits },
+      curves: [...curves.values()].map((curve) => ({ ...curve, values: [...valuesIn(found, curve.id), ...valuesIn(piece, curve.id)] })),
     };
   }
   size.addEventListener("change", () => {
@@ -152,15 +155,7 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
   // The present cam and the pinned one, side by side.
   function compare(values, pinned) {
     pin.hidden = Boolean(pinned);
-    both.replaceChildren(...(pinned ? [make("h3", { text: words.side_by_side }), valuesTableOfTwo(values, pinned)] : [make("p", { class: "hint", text: words.pin_about })]));
-  }
-
-  function valuesTableOfTwo(values, pinned) {
-    const other = new Map(pinned.map((value) => [value.id, value]));
-    return make("table", { class: "compare" },
-      make("thead", {}, make("tr", {}, ["quantity", "now", "pinned"].map((name) => make("th", { scope: "col", class: name === "pinned" ? "pin" : null, text: words[name] })))),
-      make("tbody", {}, values.map((value) => make("tr", {}, make("th", { scope: "row", text: value.title }),
-        make("td", { class: "now", text: value.said.drawn }), make("td", { class: "pin", text: other.get(value.id)?.said.drawn ?? "–" })))));
+    both.replaceChildren(...(pinned ? [make("h3", { text: words.side_by_side }), valuesTable(values, [["now", "now", ({ said }) => said.drawn], pinnedColumn(pinned)], words)] : [make("p", { class: "hint", text: words.pin_about })]));
   }
 
   return { offer, update, draw, compare };
