@@ -87,7 +87,7 @@ parts, poles = solution.chain.spans[0].stop - 1, integration.givens.poles
 Markdown(f"Each phase has {parts} parts; the poles are {poles[0]:g} and {poles[1]:g} mm from the origin.")
 
 # %% [markdown]
-# **Predict.** Of the chords of $v$ on the rise, which is the steepest, and where is $v$ greatest? And what if the law had its acceleration
+# **Predict.** Of the chords of $v$ on the rise, which is the steepest, and where is $v$ largest? And what if the law had its acceleration
 # constant, up and then down: which figure would the chords make? Sketch both before you look.
 #
 # **Draw it.** `graphcam solve task.toml --upto acceleration --out half` prints the sheet with the acceleration diagram drawn; the

@@ -81,7 +81,7 @@ from graphcam.notebooks import (
 # The task of the course, from the file `task.toml`, at the station of the maximum velocity of the rise. The minimum radius is that of
 # notebook 4; here take it as given.
 #
-# **Predict.** Where is the pressure angle of the rise greatest: where $v$ is, before it, or after it? Look at the formula, and think of what
+# **Predict.** Where is the pressure angle of the rise largest: where $v$ is, before it, or after it? Look at the formula, and think of what
 # the height $s_0 + s$ does meanwhile.
 #
 # **Draw it.** `graphcam solve task.toml --upto minimum_radius --out half` prints the sheet with everything that the plan starts from.

@@ -92,7 +92,7 @@ solution = gc.solve(task)
 region = solution.drawn["minimum_radius"]
 
 # %% [markdown]
-# **Predict.** From which of the points $D_0, D_1, \dots$ do you expect the lowest line at 30°: the one where $v$ is greatest, an earlier or a later
+# **Predict.** From which of the points $D_0, D_1, \dots$ do you expect the lowest line at 30°: the one where $v$ is largest, an earlier or a later
 # one?
 #
 # **Draw it.** `graphcam solve task.toml --upto integration --out half` prints the sheet with the diagrams of $s$ and $v$; the region goes
@@ -168,7 +168,7 @@ depth_lines.check(your_depths)
 
 # %% tags=["hide-input"]
 depths = segments / np.tan(radians(30)) - heights
-print(f"deepest: station {depths.argmax()}, {depths.max():.2f} mm of paper below the start; v is greatest at station {segments.argmax()}")
+print(f"deepest: station {depths.argmax()}, {depths.max():.2f} mm of paper below the start; v is largest at station {segments.argmax()}")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert depth_lines.check(depths).status == "right"

@@ -320,7 +320,7 @@ def profile_spline(
     >>> gc.profile_spline(cam)(0).round(3).tolist() == cam.profile(0).round(3).tolist()
     True
     """
-    check_kind("cam", cam, Cam)
+    check_kind("cam", cam, (Cam, ConjugateCam))
     if degree not in get_args(Degree):
         raise DesignError("degree", degree, or_list("2345"))
     least = max(MIN_DEVIATION, MIN_DEVIATION_SHARE * (cam.prime_radius + cam.motion.lift))

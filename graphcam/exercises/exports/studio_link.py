@@ -59,7 +59,7 @@ def given_construction(variant: Variant) -> str:
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> from graphcam.exercises.definition.variant import drawn
     >>> given_construction(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
-    'acceleration'
+    'scheme'
     """
     names, asked = board_chain(variant.task).names, {each.construction for each in variant.exercise.answers}
     if not asked <= set(names):

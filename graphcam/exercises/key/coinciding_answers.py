@@ -51,8 +51,8 @@ def guessed_radii(
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> exercise = find_exercise("curvature-and-roller")
-    >>> keys = [Expected(value, 1.0) for value in (8.0, 9.0, 0.5, 80.0, -9.0, 70.0, 20.0, 48.0, 24.0)]
-    >>> guessed_radii(exercise, keys, [3.0] * 9, prime_radius=60.0), guessed_radii(exercise, keys, [3.0] * 9, 50.0)
+    >>> keys = [Expected(value, 1.0) for value in (-14.0, 8.0, 9.0, 0.5, 80.0, -9.0, 70.0, 20.0, 48.0, 24.0)]
+    >>> guessed_radii(exercise, keys, [3.0] * 10, prime_radius=60.0), guessed_radii(exercise, keys, [3.0] * 10, 50.0)
     ((), ('rho', 'roller'))
     """
     return tuple(
