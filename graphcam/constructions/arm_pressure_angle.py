@@ -132,6 +132,10 @@ def arm_pressure_angle(
     integrated : of an angle s [rad]
     prime_radius, distance : of the cam centre A from the start of the lift and from the pivot [mm]
     mu_l : scale of the drawing [mm/mm]
+
+    Raises
+    ------
+    DesignError : in a single drawing the cam centre is not found
     """
     hand = Hand(pencil, MEANING)
     drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
@@ -146,7 +150,10 @@ def arm_pressure_angle(
     read_angles(hand, normals, hand.join("rays", tips, centre))
     hand.angle("psi0", drawn["arm at rest"], hand.join("line of centres", pivot, centre))
     givens = ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l)
-    return hand.finished(givens, _draw, {"ends": drawn["ends"], "tips": tips, "centre": centre})
+    measured = hand.finished(givens, _draw, {"ends": drawn["ends"], "tips": tips, "centre": centre})
+    if pencil.samples is None:
+        check_centre(measured)
+    return measured
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------

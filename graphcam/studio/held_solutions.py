@@ -13,7 +13,6 @@ from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from typing import Any
 
-from graphcam.constructions.arm_pressure_angle import check_centre
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.pressure_angle import shown_station
@@ -28,7 +27,7 @@ from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import board_of
 from graphcam.studio.views_request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.task import OscillatingTable, Task
+from graphcam.tasks.task import Task
 from graphcam.words import say
 
 MAX_HEIGHT = 2000.0
@@ -232,11 +231,7 @@ def _cached_solution(task: str, spoken: str, kept: str, station: int | None) -> 
     check_heights(board)
     board = board if station is None else replace(board, station=station)
     done = _drawn_diagrams(_DiagramBoard.of(board)) if pencil.perfect else None
-    solution = solved_on(board, given, pencil, done)
-    # What is drawn only where it is looked at must not be refused there: then it would be the state already.
-    if isinstance(given.follower, OscillatingTable):
-        check_centre(solution.chain["pressure_angle"])
-    return solution
+    return solved_on(board, given, pencil, done)
 
 
 @dataclass(frozen=True)
