@@ -244,8 +244,8 @@ def test_a_course_on_paper_is_graded_by_the_keys_of_its_paper(tmp_path: Path):
         app, ["exercise", "grade", str(out), "--secret-file", str(secret), "--out", str(grades), "--workers", "1"]
     )
     assert result.exit_code == 0, result.output
-    assert find_exercise("inversion-arm").marks == pytest.approx(14)
-    assert ",14," in grades.read_text().replace('"', "")
+    assert find_exercise("inversion-arm").marks == pytest.approx(15)
+    assert ",15," in grades.read_text().replace('"', "")
     unmarked = ["exercise", "make", "inversion-arm", *arguments[:-1], str(tmp_path / "other"), "--paper", "unmarked"]
     assert CliRunner().invoke(app, unmarked).exit_code == 0
     assert not (tmp_path / "other" / "teacher" / "printed").exists()
