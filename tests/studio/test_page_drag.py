@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 from studio_pages import frame_of, hand, in_hash, middle, settled, task_of
 
@@ -59,6 +61,31 @@ def test_the_place_of_release_is_what_is_shown(opened, served):
     assert sizes["prime_radius"] == task_of(page)["cam"]["prime_radius"]
     # Where the hand let go, but for the steps of the sizes and their magnets.
     assert place_of(page, "combined/A") == pytest.approx(last[0]["drag"]["to"], abs=2.5)
+
+
+def test_where_the_place_of_release_is_refused_the_last_good_picture_is_told_whole(opened):
+    """What the hand made of it before is the state, though it was drawn without its words and values."""
+    page = opened()
+    drag(page, "combined/A", (-30, 40))
+    page.wait_for_function("() => studio.quiet() && !document.querySelector('#steps [data-act]')")
+
+    def answered(route):
+        asked = json.loads(route.request.post_data)
+        error = {"quantity": "prime radius", "message": "too flat", "remedy": "", "fields": []}
+        refused = {"ok": False, "error": error}
+        if asked.get("told") and asked.get("drag"):
+            route.fulfill(status=200, content_type="application/json", body=json.dumps(refused))
+        else:
+            route.continue_()
+
+    page.route("**/engine", answered)
+    page.mouse.up()
+    settled(page)
+    page.unroute("**/engine")
+    assert page.evaluate("() => document.querySelectorAll('#steps [data-act]').length") > 0
+    sizes = page.evaluate("() => studio.shown.sizes")
+    assert sizes["prime_radius"] == task_of(page)["cam"]["prime_radius"]
+    assert "too flat" in page.locator("#told-limits").inner_text()
 
 
 def test_escape_gives_the_old_sizes_back(opened):

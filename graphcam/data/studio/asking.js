@@ -9,7 +9,7 @@ const OTHER_SIZE = 1.12;
 function askingOf(page) {
   const { config, word, state, queue, small, last, strip, sizes } = page, now = state.get;
   const lettered = new Set();
-  let round = 0, resting = 0, unanswered = null;
+  let round = 0, resting = 0, unanswered = null, told = true;
 
   // --- the picture -----------------------------------------------------------------------------------------------------------
 
@@ -45,9 +45,10 @@ function askingOf(page) {
     };
   }
 
-  // The picture of the state, of what a hand that is down makes of it, or of what is wanted of it, see changing.js.
-  function ask(wanted = null) {
-    const question = { wanted };
+  // The picture of the state, of what a hand that is down makes of it, or of what is wanted of it, see changing.js;
+  // `failing` where it is that of before what has just been refused.
+  function ask(wanted = null, failing = false) {
+    const question = { wanted, failing };
     const request = () => {
       question.hand = wanted ? null : page.hand;
       question.aim = wanted ? wanted.aim() : page.hand ? page.aimOf(page.hand) : {};
@@ -63,7 +64,8 @@ function askingOf(page) {
     // What a hand asked that has let go is asked again.
     if (hand && hand !== page.hand) return;
     if (!answer.ok) return refuse(answer, question);
-    if (wanted || hand?.changes || !sizes.refused()) page.failed = null;
+    told = request.told;
+    if (!question.failing && (wanted || hand?.changes || !sizes.refused())) page.failed = null;
     page.notice(null);
     unanswered = null;
     if (aim.forget) page.forget();
@@ -122,7 +124,7 @@ function askingOf(page) {
   }
 
   // The last good picture stays, paler, and so does the state; the value stays in its field as it was typed.
-  function refuse(answer, { aim, wanted, hand }) {
+  function refuse(answer, { aim, wanted, hand, failing }) {
     if (answer.lost) return lost(answer, aim, wanted);
     const { message, remedy } = answer.error, said = [message, remedy].filter(Boolean).join("; ");
     const beside = !aim.forget && sizes.showError(answer.error, Object.keys(wanted?.changes || hand?.changes || {}));
@@ -134,6 +136,8 @@ function askingOf(page) {
     rest();
     // An address, a file: there is no field for it, and what was there is drawn.
     if (aim.forget && !page.drawn()) ask();
+    // What a hand made of it before the refusal is the state, and was drawn without its words and values.
+    else if (!told && !page.hand && !failing) ask(null, true);
   }
 
   // No answer: it is asked for again, and what was wanted is kept in the address.
