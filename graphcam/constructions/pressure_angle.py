@@ -257,14 +257,17 @@ class _PlanStation:
 
     @property
     def view(self) -> View:
+        """The view of the plan, with its scale in the title."""
         return self.scales.view(self.name)
 
     @property
     def acts(self) -> Mapping[str, Drawn]:
+        """What the acts of the plan left, by their names."""
         return self.hand.acts
 
     @property
     def name(self) -> str:
+        """The name of the station, as "4′"."""
         return station_names(self.measured.givens.integrated.givens.stations)[self.station]
 
     @property
@@ -279,6 +282,7 @@ def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> 
     low, high = measured.acts["displacements"].first[k], measured.acts["ends"].first[k]
 
     def enlarged(length: Setting) -> Setting:
+        """A length of the diagrams as it is laid off here [mm of paper]."""
         return calculated_setting(partial(np.multiply, times), length)
 
     a = hand.given("A")

@@ -286,6 +286,7 @@ def _contacts(inverted: SwingingInverted) -> Step:
     v = v[0] if v.ndim > 1 else v
 
     def laid_off(n: int) -> Caption:
+        """Where the instant centre P of a station lies, as a caption."""
         share = float(_pole_share(sigma, c, v[n]))
         if abs(share) < NEGLIGIBLE_SIZE:
             return say("P is A")

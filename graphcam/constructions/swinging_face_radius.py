@@ -265,6 +265,7 @@ def _vectors_step(region: SwingingRegion) -> Step:
     v = integrated.first("v") * integrated.readings["v"].per_mm
 
     def factors(n: int) -> Caption:
+        """The factors K and L of a station, and how they are shortened, as a caption."""
         said = say("σv = {v:.4f}: K = {square:.4f}, L = {along:.4f}")
         if times[n] > 1:
             said = say("σv = {v:.4f}: K = {square:.4f}, L = {along:.4f}, both laid off {times:g} times shorter")
@@ -319,6 +320,7 @@ def _lines_step(region: SwingingRegion) -> Step:
     far = permitted / givens.mu_l.per_mm * UNIT_LENGTH / length
 
     def laid_off(n: int) -> Caption:
+        """The length laid off on a line [mm of paper], as a caption."""
         return say("{far:.2f} mm", far=float(far[n]))
 
     k = int(np.argmin(_ends_on(region).imag[: len(named)]))

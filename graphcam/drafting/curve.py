@@ -143,6 +143,7 @@ def along_rays(start: Points, way: Points) -> Reach:
     """How places lie beside rays (..., k) of unit directions, and how far along them."""
 
     def reach(places: Points) -> tuple[Distances, Distances]:
+        """Distances beside the rays, and along them; NaN behind their starts."""
         from_start = places - start[..., None]
         along = dot(way[..., None], from_start)
         return cross(way[..., None], from_start), np.where(along >= 0, along, np.nan)

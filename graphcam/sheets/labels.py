@@ -59,6 +59,8 @@ FIRST_PLACES = 24
 """The number of places of a text that are tried before the others."""
 LEADER_FRACTIONS = np.linspace(0.1, 0.95, 60)
 """The fractions of a leader at which its cost is taken."""
+BARRED_FRACTIONS = LEADER_FRACTIONS[::3]
+"""Those at which it is in the box of another view, which is far wider than a letter."""
 
 
 PARTED_ROLES = Role.CONSTRUCTION, Role.AXIS, Role.HIDDEN, Role.DIMENSION
@@ -411,7 +413,7 @@ def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:
     inside &= (centres.imag + up > bottom) & (centres.imag - up < top)
     if led.any():
         left, bottom, right, top = edges[..., None]
-        way = anchors[led][:, None] + LEADER_FRACTIONS[::3] * (centres[led] - anchors[led])[:, None]
+        way = anchors[led][:, None] + BARRED_FRACTIONS * (centres[led] - anchors[led])[:, None]
         within = (way.real > left) & (way.real < right) & (way.imag > bottom) & (way.imag < top)
         # Where it begins in another view already, a leader leads out of it.
         inside[:, led] |= (within & ~within[..., :1]).any(axis=-1)

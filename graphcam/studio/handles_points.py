@@ -112,6 +112,7 @@ def rows(solution: Solution) -> Iterator[Handle]:
         axis = HandleAxis(f"motion.table.rows[{k}][1]", say("Displacement s"), unit, start, lifts, "y", extra)
 
         def drag(to: complex, fine: bool, axis: HandleAxis = axis, at: complex = at) -> Changes:
+            """The displacement upwards, with the rows beside it."""
             height = axis.range.nearest_step(axis.value + (to.imag - at.imag) * paper.lift, fine=fine)
             return changes_with(axis.extra or {}, axis.path, height)
 
