@@ -8,8 +8,8 @@ from typing import Any
 from graphcam.errors import DesignError, GraphcamError, TaskError, choice_limit
 from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.studio.task_paths import PATH_PATTERN, steps_of, value_at
-from graphcam.tasks.task import table_of
 from graphcam.tasks.file_faults import EXAMPLE_REMEDY, path_of_key
+from graphcam.tasks.task import table_of
 from graphcam.words import message
 
 Plain = dict[str, Any]

@@ -18,8 +18,8 @@ from graphcam.errors import TaskError
 from graphcam.given.laws import LAWS
 from graphcam.language import language, languages
 from graphcam.tasks.dataclass_reader import classes_of
-from graphcam.tasks.task import Task
 from graphcam.tasks.file_faults import _keys as keys_of
+from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import builtin_text, load_task
 from graphcam.tasks.units import UNITS
 
