@@ -7,7 +7,8 @@ from graphcam.drafting.scale import unit
 from graphcam.given.spring_load import ArmLoad, LoadCurve, SpringLoad
 from graphcam.report.markdown import Block, Equation, Grid, formula, general, number, numbers, warning
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import IDLE_CAPTION, SpringDesign, with_unit
+from graphcam.solving.spring_design import SpringDesign
+from graphcam.solving.spring_diagrams import IDLE_CAPTION, moved_part, with_unit
 from graphcam.solving.stress_design import StressDesign, rounded_up
 from graphcam.solving.turn_diagrams import at_side
 from graphcam.words import Caption, Words, and_list, say, sequence
@@ -167,7 +168,7 @@ def forces(solution: Solution) -> list[Block]:
     return [
         rubs if spring.friction else "",
         say("The cam pushes along the normal with $N$, and the torque on the shaft is $M$:"),
-        Equation(NORMAL_FORCE[spring.moved, bool(spring.friction)]),
+        Equation(NORMAL_FORCE[moved_part(spring.cam), bool(spring.friction)]),
         extremes,
         _at_stations(solution, spring),
     ]

@@ -1,45 +1,38 @@
-"""What a solution says of a spring: contact over the turn, forces, the force plan, a view and a table of the sheet."""
+"""What a solution says of a spring: contact, forces and their extremes, what is drawn of them, a table of the sheet."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import product
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from graphcam.constructions.axes import degrees, phase_kind
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
-from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import unit
 from graphcam.given.follower import MM_PER_M
-from graphcam.given.laws import Floats
 from graphcam.given.spring_load import ArmLoad, LoadCurve, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
 from graphcam.mechanism.forces import CamForces, Forces, jamming_margin, mean_torque
-from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
+from graphcam.mechanism.turn_extremes import ValueAt, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text
 from graphcam.solving.solution_warnings import Caution, beside_rows
-from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
+from graphcam.solving.spring_diagrams import (
+    CONTACT_MEANING,
+    FORCES_MEANING,
+    contact_diagram,
+    force_diagrams,
+    with_unit,
+    without_rounding,
+)
+from graphcam.solving.turn_diagrams import at_side, plain_place, turn_diagrams
 from graphcam.words import Words, and_list, sequence
 
-CONTACT_MEANING = Meaning(
-    "contact",
-    say("Contact force"),
-    say("A spring presses the follower onto the cam. A cam cannot pull: where it would have to, contact is lost."),
-)
-FORCES_MEANING = Meaning(
-    "turn_forces",
-    say("Forces over the turn"),
-    say(
-        "The cam pushes along the normal, so the contact force is larger than the force that moves the follower; "
-        "its lever arm about the cam centre makes the torque on the shaft."
-    ),
-)
 Row = tuple[Words, Words, Words]
 PLAIN_POINTS = 12
 """Points of a smooth piece in the plain data."""
@@ -171,12 +164,12 @@ class SpringDesign:
             "friction": self.friction,
             "least_transmission": plain_place(jamming_margin(self.cam, self.friction), ""),
             "torque": {
-                "mean": {"value": _without_rounding(mean), "unit": "N·mm"},
+                "mean": {"value": without_rounding(mean), "unit": "N·mm"},
                 "greatest": plain_place(most, "N·mm"),
                 "least": plain_place(fewest, "N·mm"),
             },
             "power": {
-                "mean": {"value": _without_rounding(self.power(mean)), "unit": "W"},
+                "mean": {"value": without_rounding(self.power(mean)), "unit": "W"},
                 "greatest": plain_place(most._replace(value=self.power(most.value)), "W"),
             },
             "over_turn": self._over_turn(),
@@ -200,89 +193,11 @@ class SpringDesign:
         """What is drawn of it by name: the contact function, the forces over the turn, the force plan."""
         pencil = self.chain.pencil
         drawn = (
-            turn_diagrams(CONTACT_MEANING, [self._contact_diagram()], pencil),
-            turn_diagrams(FORCES_MEANING, self._diagrams(), pencil),
+            turn_diagrams(CONTACT_MEANING, [contact_diagram(self.contact, self.load, idle=self.idle)], pencil),
+            turn_diagrams(FORCES_MEANING, force_diagrams(self.forces, self.max_normal, self.torques), pencil),
             self.force_plan,
         )
         return {each.name: each for each in drawn if each}
-
-    @property
-    def moved(self) -> Literal["stem", "arm", "swinging face"]:
-        """What the normal force moves: it has a lever of its own there."""
-        kin = self.cam.kinematics
-        return "stem" if not kin.swings else "arm" if kin.takes_roller else "swinging face"
-
-    def _contact_diagram(self) -> TurnDiagram:
-        """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
-        contact, along = self.contact, self.units[0]
-        curve, least, lost = contact.curve(), contact.min_force(), tuple(contact.lost())
-        said = CONTACT_CAPTIONS[along == "N", "lost" if lost else "idle" if self.idle else "kept"]
-        return TurnDiagram(
-            "contact",
-            say("The contact function"),
-            say("Contact force ξ, μ_ξ = {mu:g} N/mm")
-            if along == "N"
-            else say("Contact torque ξ, μ_ξ = {mu:g} N·mm/mm"),
-            say("ξ, {unit}", unit=unit(along)),
-            along,
-            contact.motion,
-            TurnCurve(curve.phi, curve.force),
-            said.with_values(formula=f"ξ = {_pressing(self.load)}"),
-            marked=((least, with_unit(_without_rounding(least.value), along)),),
-            wrong=lost,
-        )
-
-    def _diagrams(self) -> list[TurnDiagram]:
-        forces, flat = self.forces, not self.cam.kinematics.has_pressure_angle
-        margin, (_, most_torque, min_torque) = jamming_margin(self.cam, self.friction), self.torques
-        make = partial(TurnDiagram, motion=self.cam.motion)
-        sliding = make(
-            "transmission",
-            say("The transmission coefficient"),
-            say("Transmission coefficient τ, μ_τ = {mu:g}/mm"),
-            say("τ"),
-            "",
-            curve=self._curve(lambda places: forces.of(places).transmission),
-            caption=TRANSMISSION_CAPTIONS[self.moved].with_values(friction=self.friction),
-            why=say("The normal makes the angle α with the motion, and friction acts along the profile."),
-            marked=((margin, say("{value:.3f}", value=margin.value)),),
-        )
-        normal = make(
-            "normal_force",
-            say("The normal force"),
-            say("Normal force N, μ_N = {mu:g} N/mm"),
-            say("N, {unit}", unit=unit("N")),
-            "N",
-            curve=self._curve(forces.normal),
-            caption=say(
-                "N = {formula} is the force along the normal, at {mu:g} N/mm. Its maximum is {greatest}.",
-                formula=NORMAL_FORMULAS[self.moved, bool(self.friction)],
-                greatest=with_unit(self.max_normal.value, "N"),
-            ),
-            why=say("Along the motion only a part of the normal force acts."),
-            marked=((self.max_normal, with_unit(self.max_normal.value, "N")),),
-        )
-        mean, peak = self.torques[0], max(most_torque, min_torque, key=lambda found: abs(found.value))
-        torque = make(
-            "torque",
-            say("The torque on the cam"),
-            say("Torque M, μ_M = {mu:g} N·mm/mm"),
-            say("M, {unit}", unit=unit("N·mm")),
-            "N·mm",
-            curve=self._curve(forces.torque),
-            caption=say(
-                "M is the torque that drives the cam, at {mu:g} N·mm/mm; where it is negative the follower drives the "
-                "cam. Its peak is {peak} and its mean {mean}.",
-                peak=with_unit(peak.value, "N·mm"),
-                mean=with_unit(_without_rounding(mean), "N·mm"),
-            ),
-            why=say("The power of the shaft equals that of the follower and of friction."),
-            marked=((peak, with_unit(peak.value, "N·mm")),),
-        )
-        return [normal, torque] if flat else [sliding, normal, torque]
-
-    def _curve(self, quantity: Callable[[Places], Floats]) -> TurnCurve:
-        return over_turn(self.cam.motion, quantity, self.forces.pressing.knots)
 
     def at_stations(self) -> Forces:
         """The forces at the stations of the drawing."""
@@ -332,13 +247,13 @@ class SpringDesign:
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
             (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
-            (contact, with_unit(_without_rounding(least.value), along), at_side(least, self.cam.motion)),
+            (contact, with_unit(without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
             (say("minimum torque"), with_unit(fewest.value, "N·mm"), at_side(fewest, self.cam.motion)),
-            (say("mean torque"), with_unit(_without_rounding(mean), "N·mm"), ""),
+            (say("mean torque"), with_unit(without_rounding(mean), "N·mm"), ""),
             (say("maximum power"), with_unit(self.power(most.value), "W"), at_side(most, self.cam.motion)),
-            (say("mean power"), with_unit(_without_rounding(self.power(mean)), "W"), ""),
+            (say("mean power"), with_unit(without_rounding(self.power(mean)), "W"), ""),
         ]
         if self.friction:
             rows.append(
@@ -359,86 +274,9 @@ PLAIN_FORCE_COLUMNS = {
     "torque": "torque",
 }
 """The columns of the plain data over the turn, and the fields of the forces."""
-CONTACT_CAPTIONS = {
-    (True, "lost"): say(
-        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. Where it is negative, as "
-        "marked on the axis, the cam would have to pull: contact is lost."
-    ),
-    (True, "kept"): say(
-        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative: "
-        "contact is kept."
-    ),
-    (False, "lost"): say(
-        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. Where it "
-        "is negative, as marked on the axis, the cam would have to pull: contact is lost."
-    ),
-    (False, "kept"): say(
-        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is "
-        "nowhere negative: contact is kept."
-    ),
-    (True, "idle"): say(
-        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative, but "
-        "with F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than zero."
-    ),
-    (False, "idle"): say(
-        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is nowhere "
-        "negative, but with F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than "
-        "zero."
-    ),
-}
-"""What is said of the contact function, of a force or a torque, where contact is lost, kept, or kept by nothing."""
-IDLE_CAPTION = say(
-    "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than "
-    "zero."
-)
-TRANSMISSION_CAPTIONS = {
-    "stem": say(
-        "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the "
-        "follower, at {mu:g}/mm. Where it falls to zero the follower jams."
-    ),
-    "arm": say(
-        "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, "
-        "is the part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
-    ),
-    "swinging face": say(
-        "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in distances of the "
-        "contact from there, is the part of it that moves the face, at {mu:g}/mm. Where it falls to zero the face jams."
-    ),
-}
-"""What is said of the transmission coefficient, by what the normal force moves."""
-
-
-NORMAL_FORMULAS = {
-    ("stem", False): "ξ/cos α",
-    ("stem", True): "ξ/(cos α − μ sin α)",
-    ("arm", False): "ξ/(l cos α)",
-    ("arm", True): "ξ/(l cos α − σμ(l sin α − r))",
-    ("swinging face", False): "ξ/q",
-    ("swinging face", True): "ξ/(q + σμf)",
-}
-"""The normal force by what it moves, and whether there is friction at the cam."""
-
-
-def _pressing(load: SpringLoad | ArmLoad) -> str:
-    outer, damped = bool(load.load), " + dvω" if load.damping else ""
-    if isinstance(load, SpringLoad):
-        return f"m(aω² + vε) + F₀ + cs{damped}" + (" + P" if outer else "")
-    spring = "F₀ + cs" if load.at is None else "(F₀ + cx)·dx/ds"
-    return f"J(aω² + vε) + {spring}{damped}" + (" + lP" if outer else "")
-
-
-def with_unit(value: float, of: str) -> Caption:
-    """A force or a torque with its unit."""
-    # No powers of ten: four digits, and zeros.
-    return say("{value:.12g} {unit}", value=float(f"{value:.4g}"), unit=unit(of))
 
 
 def _rounded_up(force: float) -> float:
     """The value rounded up to four digits, and no less: with less preload contact is lost."""
     unit_of_last = 10.0 ** (math.floor(math.log10(force)) - 3) if force > 0 else 1.0
     return math.ceil(force / unit_of_last) * unit_of_last
-
-
-def _without_rounding(force: float) -> float:
-    """A force without the rounding that is left where it is zero."""
-    return round(force, 9) + 0.0

@@ -21,7 +21,8 @@ from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution_warnings import Caution, beside_rows, profile_speed
-from graphcam.solving.spring_design import PLAIN_POINTS, Row, with_unit
+from graphcam.solving.spring_design import PLAIN_POINTS, Row
+from graphcam.solving.spring_diagrams import with_unit
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.words import Words, say_in
