@@ -26,8 +26,8 @@ from graphcam.constructions.adoption import (
 from graphcam.constructions.angle_diagram import angle_diagram
 from graphcam.constructions.board import Board
 from graphcam.constructions.cam_analysis import AnalysisGivens
-from graphcam.constructions.differentiation import given_cam_differentiation, measured_differentiation
 from graphcam.constructions.drawings import Drawings, DrawnOnce
+from graphcam.constructions.fitted_differentiation import given_cam_differentiation, measured_differentiation
 from graphcam.constructions.integration import integration
 from graphcam.constructions.jerk import jerk
 from graphcam.constructions.kinematic_diagram import scheme

@@ -12,7 +12,8 @@ from numpy.testing import assert_allclose
 from over_all import over_all
 
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.differentiation import differentiation, measured_differentiation
+from graphcam.constructions.differentiation import differentiation
+from graphcam.constructions.fitted_differentiation import measured_differentiation
 from graphcam.drafting.marks import Line, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
