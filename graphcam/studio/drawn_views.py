@@ -177,7 +177,7 @@ def _frame(entities: Iterable[Entity]) -> Box:
 
 
 def digest(svg: str) -> str:
-    """What tells one drawing of a step from another."""
+    """A short hash of a drawing, by which one of a step is told from another."""
     return blake2b(svg.encode(), digest_size=6).hexdigest()
 
 

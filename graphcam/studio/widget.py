@@ -152,7 +152,7 @@ class StudioWidget(anywidget.AnyWidget):
 
     @property
     def html(self) -> str:
-        """The still pictures that stand in its place where no kernel runs; without any the task as it is now."""
+        """Still pictures for a page without a kernel: those that were asked for, else one of the task as it is now."""
         if not self._stills:
             return self._still_picture({}).html
         pictures = {says: self._still_picture(changes) for says, changes in self._stills.items()}

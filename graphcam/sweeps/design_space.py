@@ -168,7 +168,7 @@ class Space:
 
     @property
     def varied_columns(self) -> tuple[str, ...]:
-        """The names of the same in the results; one of degrees ends in ``_deg``."""
+        """The columns of the results that hold the varied parameters; one in degrees ends in ``_deg``."""
         return tuple(self._column(name) for name in self.varied)
 
     def _column(self, name: str) -> str:

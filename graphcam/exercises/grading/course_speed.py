@@ -50,7 +50,7 @@ class MarkingSpeed:
 
 
 def marking_speed(exercise: Exercise, timer: Timer | None = None) -> MarkingSpeed:
-    """Measured with simulated students, whose answers are read from an ``answers.toml``, points of a curve too.
+    """The speed of marking simulated students, whose answers are read from an ``answers.toml``, points of a curve too.
 
     Raises
     ------
