@@ -135,10 +135,8 @@ def followed(page: str, folder: Path, script: str = "") -> str:
     for name, text in files(page).items():
         (folder / name).write_text(text, encoding="utf-8")
     command = [sys.executable, "-W", "error::UserWarning", "-c", script or (folder / [*files(page)][-1]).read_text()]
-    environment = {
-        **os.environ,
-        "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests" / "constructions", folder))),
-    }
+    beside = (ROOT / "tests" / room for room in ("", "constructions", "comparison", "mechanism"))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, *beside, folder)))}
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=environment)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -168,6 +166,24 @@ chains = {n: where.chain(n).adding(MEANING, draw) for n in (12, 24, 48, 96)}
 print(next(s.order for s in series_of(where, chains) if s.construction == "steepest_chord"))
 """
     assert float(followed("how-to/add-a-construction.md", tmp_path, script)) == pytest.approx(2.0, abs=0.1)
+
+
+def test_the_construction_of_the_page_keeps_what_every_construction_owes(tmp_path):
+    """Its parts draw all its marks, and each mark lies on what its act left."""
+    script = """
+import graphcam as gc
+from steepest_chord import steepest_chord
+from test_acts import ON_THE_FIGURE, beside, figure_of, own_marks
+from test_parts import left_out
+for name in ("coursework", "arm", "flat"):
+    steps = steepest_chord(gc.solve(gc.builtin_task(name)).chain.integration, 40.0, gc.Pencil()).steps()
+    assert [left_out(step) for step in steps] == [[], []], name
+    for step in steps:
+        for mark in own_marks(step):
+            assert beside(mark, mark.of, figure_of(mark.of)) < ON_THE_FIGURE, (name, mark)
+print("kept")
+"""
+    assert followed("how-to/add-a-construction.md", tmp_path, script).strip() == "kept"
 
 
 @pytest.mark.parametrize(
