@@ -153,8 +153,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     motion, starts, feet = (inverted.acts[name] for name in ("motion", "starts", "feet"))
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
     numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= MIN_NUMBERED_RADIUS else starts
-    phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    marks = (lines, *number_labels(numbered, stations, -unit(numbered.shown)), *phases)
+    marks = (lines, *number_labels(numbered, stations, -unit(numbered.shown)))
     said = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
         "A and count {against} from {line}, from station to station {steps}, so station {name} at {angle}; draw and "
@@ -174,7 +173,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
     names = station_names(stations)
     turned = run((tangents if e else said).with_values(**values), STATION, names, rays, feet, starts, motion)
-    return Step(title, (turned, last), PROFILE, marks, why=why)
+    return Step(title, (turned,), PROFILE, marks, why=why)
 
 
 def _displacement_step(inverted: OffsetInverted) -> Step:

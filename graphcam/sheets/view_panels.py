@@ -18,7 +18,7 @@ from graphcam.sheets.text_measures import width, wrap
 
 LABEL_MARGIN = 3.0
 """The free margin around the drawing of a view, for labels [mm]."""
-STRIP_COUNT = 12
+STRIP_COUNT = 24
 """The number of boxes that cover the outline of a view."""
 TITLE_GAP = 1.5
 """The gap between a title and the lines below it [mm]."""

@@ -22,14 +22,14 @@ from random_sheets import solved
 
 import graphcam as gc
 from graphcam.constructions.axes import broken_axis, part_names
-from graphcam.drafting.marks import Role
+from graphcam.drafting.marks import Points, Role
 from graphcam.drafting.scale import Scale
 from graphcam.given.motion import FULL_TURN
 from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.fewer_sheets import larger_paper
 from graphcam.report.sheet_contents import Contents
-from graphcam.sheets.model import Drawing, Entity, Page, Strokes, Text
-from graphcam.sheets.sampling import box_around, box_of, corners, linework, sampled
+from graphcam.sheets.model import Box, Drawing, Entity, Page, Strokes, Text
+from graphcam.sheets.sampling import box_around, corners, linework, outermost, sampled
 from graphcam.sheets.styles import BOLD
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.diagram_sizes import MIN_POLE, narrowest_part
@@ -53,7 +53,7 @@ TANGLE_SIZE = 20.0
 MIN_CROSSING_LEADERS = 3
 """The number of leaders that make a tangle."""
 INSIDE = 0.5
-"""A label is in another view if its box is so deep in it [mm]."""
+"""A label is in another view if its box is so deep in the convex outline of its lines [mm]."""
 
 
 @dataclass(frozen=True)
@@ -190,15 +190,31 @@ def _trespassing(contents: Contents, drawing: Drawing) -> Iterator[tuple[str, st
     for page in drawing.pages:
         views = _views(contents, page)
         # A leader may lead out of its view: where it ends a label does.
-        boxes = {
-            name: box.grown(-INSIDE)
+        bands = {
+            name: list(
+                _bands(sampled(*linework(e for e in _without_leaders(entities) if not isinstance(e, Text)), 1.0))
+            )
             for name, entities in views.items()
-            if (box := box_of(e for e in _without_leaders(entities) if not isinstance(e, Text)))
         }
         for name, entities in views.items():
             for text in (e for e in entities if isinstance(e, Text) and e.text):
-                own = box_around(corners(text))
-                yield from ((text.text, other) for other, box in boxes.items() if other != name and box.meets(own))
+                own, others = box_around(corners(text)), (other for other in bands if other != name)
+                yield from ((text.text, other) for other in others if any(box.meets(own) for box in bands[other]))
+
+
+def _bands(lines: tuple[Points, Points]) -> Iterator[Box]:
+    """Level bands of a view's convex outline, without their edge: beyond it the box of the view is empty."""
+    points = sampled(*lines, 1.0)
+    if not points.size:
+        return
+    hull = outermost(points)
+    steps = np.linspace(0.0, 1.0, 200)[:, None]
+    outline = (hull + steps * (np.roll(hull, -1) - hull)).ravel()
+    low, high = float(points.imag.min()), float(points.imag.max())
+    for start, end in pairwise(np.linspace(low, high, max(2, math.ceil((high - low) / CELL))).tolist()):
+        band = outline[(outline.imag >= start) & (outline.imag <= end)]
+        if band.size and np.ptp(band.real) > 2 * INSIDE:
+            yield Box(band.real.min() + INSIDE, start + INSIDE, band.real.max() - INSIDE, end - INSIDE)
 
 
 def _without_leaders(entities: Sequence[Entity]) -> list[Entity]:
