@@ -238,12 +238,10 @@ ARC_STEP = math.radians(1)
 """The arcs of a closed curve are drawn through points this far apart [rad]."""
 
 
-def radius_arrow(
-    inverted: Inverted, circle: Drawn, start: complex, symbol: str, radius: float
-) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:
-    """An arrow to a circle from its centre, in the middle of the longest phase, where there is most room.
+def _radius_arrow(inverted: Inverted, circle: Drawn, start: complex) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:
+    """An arrow to the prime circle from its centre, in the middle of the longest phase, where there is most room.
 
-    start : the direction in which the circle is at the start of the turn; radius : of the machine [mm]
+    start : the direction in which the circle is at the start of the turn
 
     Returns
     -------
@@ -254,9 +252,10 @@ def radius_arrow(
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
     hand, sigma = errorless_hand(inverted), sense(inverted.givens.rotation)
     towards = complex(turned_direction(start / abs(start), -sigma * middle))
-    ray = hand.erect(f"radius {symbol}", circle.first, towards)
-    tip = hand.cross(f"tip of {symbol}", ray, circle.first)
-    named, text = hand.divide(symbol, ray, tip, 0.6), say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
+    ray = hand.erect("radius r₀", circle.first, towards)
+    tip = hand.cross("tip of r₀", ray, circle.first)
+    named, text = hand.divide("r₀", ray, tip, 0.6), say("{symbol} = {radius:g}", symbol="r₀")
+    text = text.with_values(radius=inverted.givens.prime_radius)
     arrow = Arrow(ray.place, tip.place, Role.DIMENSION).left_by(ray)
     return (arrow, named.label(text, tip.place * UP)), (ray, named)
 
@@ -312,7 +311,7 @@ def _reach(inverted: Inverted, roller: float, start: float, end: float) -> float
     return float(np.fmax.reduce(beyond, axis=None, initial=inner if pivots is None else np.abs(pivots.first.points[0])))
 
 
-def _outer_radius(inverted: Inverted) -> float:
+def outer_radius(inverted: Inverted) -> float:
     """The radius outside the prime circle and the pitch curve to which the centre lines go [mm]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
     return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + CENTRE_LINE_OVERRUN
@@ -321,7 +320,7 @@ def _outer_radius(inverted: Inverted) -> float:
 def centre_marks(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
-    reach = _outer_radius(inverted) * np.array([-1, 1])
+    reach = outer_radius(inverted) * np.array([-1, 1])
     return (
         Line(reach + 0j, Role.AXIS),
         Line(UP * reach, Role.AXIS),
@@ -347,7 +346,7 @@ def prime_step(
     parts : what is drawn after the prime circle
     """
     centre, circle = centre_marks(inverted), inverted.acts["prime circle"]
-    arrow, of_arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
+    arrow, of_arrow = _radius_arrow(inverted, circle, start)
     marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
     prime = say_in("drawn", "the prime circle about the cam centre A")
     told = circle_caption(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)

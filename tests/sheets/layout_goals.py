@@ -233,7 +233,7 @@ def _leaders(entities: Iterable[Entity]) -> list[Strokes]:
 
 def _tangles(page: Page) -> Iterator[str]:
     """Places where three leaders or more cross one another."""
-    ends = [(complex(line.starts[0]), complex(line.ends[-1])) for g in page.groups for line in _leaders(g.entities)]
+    ends = [(complex(line.starts[0]), complex(line.ends[0])) for g in page.groups for line in _leaders(g.entities)]
     crossings = [
         (at, pair) for pair in combinations(range(len(ends)), 2) if (at := _crossing(*ends[pair[0]], *ends[pair[1]]))
     ]
