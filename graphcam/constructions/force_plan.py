@@ -366,8 +366,8 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     parts = move_parts([(laid, base), (inclined, incline), (join, line)], values)
     marks = (across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION))
     why = say(
-        "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is f₂(l + 2b)/l of "
-        "it and acts against the motion."
+        "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is f₂(l + 2b)/l "
+        "of it and acts against the motion."
     )
     return Step(title, parts, view, marks, why=why)
 
