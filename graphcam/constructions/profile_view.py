@@ -302,28 +302,32 @@ def phases_step(inverted: Inverted, roller: float) -> Step:
 
 def _reach(inverted: Inverted, roller: float, start: float, end: float) -> float:
     """How far the curves and the roller's circles reach between two directions from the cam centre [mm of paper]."""
-    places, pivots = inverted.first("pitch")[:, None], inverted.acts.get("pivots")
-    seen = places * np.exp(-1j * np.linspace(start, end, max(2, round((end - start) / ARC_STEP))))
+    places, pivots = inverted.first("pitch"), inverted.acts.get("pivots")
+    seen = places[:, None] * np.exp(-1j * np.linspace(start, end, max(2, round((end - start) / ARC_STEP))))
     # Where a direction meets a circle the second time.
     across = roller**2 - seen.imag**2
-    beyond = np.where(across >= 0, seen.real + np.sqrt(np.maximum(across, 0.0)), 0.0)
+    beyond = np.where(across >= 0, seen.real + np.sqrt(np.maximum(across, 0.0)), 0.0).max(axis=1)
+    within = np.abs(np.angle(places * np.exp(-0.5j * (start + end)))) <= (end - start) / 2
+    farthest = np.where(within, np.abs(places) + roller, beyond)
     inner = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    return float(np.fmax.reduce(beyond, axis=None, initial=inner if pivots is None else np.abs(pivots.first.points[0])))
+    return float(np.fmax.reduce(farthest, initial=inner if pivots is None else np.abs(pivots.first.points[0])))
 
 
-def outer_radius(inverted: Inverted) -> float:
-    """The radius outside the prime circle and the pitch curve to which the centre lines go [mm]."""
+def centre_line_end(inverted: Inverted, way: complex) -> float:
+    """How far a centre line goes in a direction from the cam centre: beyond prime circle and pitch curve [mm]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + CENTRE_LINE_OVERRUN
+    along = (inverted.first("pitch") * np.conj(way)).real
+    return float(np.fmax.reduce(along, initial=prime)) + CENTRE_LINE_OVERRUN
 
 
 def centre_marks(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
-    reach = outer_radius(inverted) * np.array([-1, 1])
     return (
-        Line(reach + 0j, Role.AXIS),
-        Line(UP * reach, Role.AXIS),
+        *(
+            Line(way * np.array([-centre_line_end(inverted, -way), centre_line_end(inverted, way)]), Role.AXIS)
+            for way in (RIGHT, UP)
+        ),
         rotation_arrow(-np.pi / 2, sigma, 0.6 * prime),
         Label(0.6 * prime * complex(turned_direction(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
         Dots(np.array([0j]), Role.RESULT),
