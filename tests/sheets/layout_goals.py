@@ -190,12 +190,11 @@ def _trespassing(contents: Contents, drawing: Drawing) -> Iterator[tuple[str, st
     for page in drawing.pages:
         views = _views(contents, page)
         # A leader may lead out of its view: where it ends a label does.
-        bands = {
-            name: list(
-                _bands(sampled(*linework(e for e in _without_leaders(entities) if not isinstance(e, Text)), 1.0))
-            )
+        drawn = {
+            name: linework(e for e in _without_leaders(entities) if not isinstance(e, Text))
             for name, entities in views.items()
         }
+        bands = {name: list(_bands(lines)) for name, lines in drawn.items()}
         for name, entities in views.items():
             for text in (e for e in entities if isinstance(e, Text) and e.text):
                 own, others = box_around(corners(text)), (other for other in bands if other != name)
