@@ -2,7 +2,7 @@
 
 ``PYTHONPATH=tests:tests/comparison python tests/sheets/layout_goals.py TASK.toml ...`` draws the sheets of tasks and
 prints what each misses; without a task it takes those of ``tests/sheets/coursework`` and the built-in ones, with
-``--random N`` also N tasks drawn at random.
+``--random N`` also N tasks drawn at random, from the number that ``--first`` tells on.
 """
 
 from __future__ import annotations
@@ -294,7 +294,7 @@ def _named(text: str) -> Iterator[str]:
             yield from (f"{k}{ends[0][2]}" for k in range(numbers[0], numbers[-1] + 1) if ends[0])
 
 
-def solutions(files: Sequence[str], random: int) -> Iterator[tuple[str, AnySolution]]:
+def solutions(files: Sequence[str], random: int, first: int = 0) -> Iterator[tuple[str, AnySolution]]:
     """The solutions of task files, or of the coursework and the built-in tasks; and of random tasks."""
     for file in files or sorted(map(str, Path(__file__).with_name("coursework").glob("*.toml"))):
         yield Path(file).stem, gc.solve(gc.load_task(file))
@@ -302,7 +302,7 @@ def solutions(files: Sequence[str], random: int) -> Iterator[tuple[str, AnySolut
         for name in BUILTIN_TASK_NAMES:
             yield name, gc.solve(builtin_task(name))
         yield "arcs", gc.solve(builtin_arcs_task())
-    yield from ((f"random {k}", solved(k)) for k in range(random))
+    yield from ((f"random {k}", solved(k)) for k in range(first, first + random))
 
 
 def main() -> int:
@@ -310,11 +310,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tasks", nargs="*")
     parser.add_argument("--random", type=int, default=0)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--all", action="store_true", help="tell all that is missed, not the first of each")
     asked = parser.parse_args()
     total: dict[str, int] = {}
     count = pages = rays = unnumbered = 0
-    for name, solution in solutions(asked.tasks, asked.random):
+    for name, solution in solutions(asked.tasks, asked.random, asked.first):
         found = measured(solution)
         count, pages, rays = count + 1, pages + len(found.empty), rays + found.rays
         unnumbered += len(found.unnumbered)
