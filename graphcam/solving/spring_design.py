@@ -24,7 +24,7 @@ from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_tu
 from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text
 from graphcam.solving.solution_warnings import Caution, beside_rows
-from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
+from graphcam.solving.turn_diagrams import TurnDiagram, at_angle, at_side, plain_place, turn_diagrams
 from graphcam.words import Words, and_list, sequence
 
 CONTACT_MEANING = Meaning(
@@ -331,7 +331,7 @@ class SpringDesign:
         lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
-            (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
+            (say("minimum preload"), with_unit(self.needed, preload), at_angle(self.least.phi)),
             (contact, with_unit(_without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
