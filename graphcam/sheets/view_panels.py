@@ -57,7 +57,7 @@ class Panel:
     @cached_property
     def _entities(self) -> list[Entity]:
         entities, writings = expand(self.marks + self.base, Placement(0j, self.factor), self.letters)
-        return [*entities, *(writing.set_at(0) for writing in writings)]
+        return [*entities, *(writing.set_at(writing.close) for writing in writings)]
 
     @cached_property
     def _lines(self) -> tuple[Points, Points]:
