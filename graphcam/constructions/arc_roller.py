@@ -28,7 +28,9 @@ from graphcam.constructions.arc_profile import (
     outline,
     sense_sign,
 )
-from graphcam.constructions.axes import standing_apart
+from graphcam.constructions.axes import sense_caption, standing_apart
+from graphcam.constructions.kinematic_sketch import sketched_stem
+from graphcam.constructions.views import SCHEME
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
@@ -216,7 +218,18 @@ def _draw(rolled: RollerOnArcs) -> list[Step]:
             "Not every arc has a centre that can be read ({missing}), so the roller has no path.", missing=missing
         )
         return [unreadable_step(say("The arcs of the roller's centre"), said, ROLLER)]
-    return [_paths(rolled), _joints(rolled), _stations(rolled), *plans(rolled, ENDS)]
+    return [_paths(rolled), _joints(rolled), _stations(rolled), *plans(rolled, ENDS), _scheme(rolled)]
+
+
+def _scheme(rolled: RollerOnArcs) -> Step:
+    sigma, radius = sense_sign(rolled.givens.arcs), rolled.givens.roller_radius
+    said = say("The cam turns {rotation} about O and moves a translating follower; its roller turns about B.")
+    if not radius:
+        said = say("The cam turns {rotation} about O and moves a translating follower; its knife edge is B.")
+    said = said.with_values(rotation=sense_caption("ccw" if sigma > 0 else "cw"))
+    marks = sketched_stem("O", 0.0, sigma, radius, 0.0)
+    why = say("The diagram shows how the links are joined; its cam is simplified.")
+    return Step(say("Kinematic diagram"), (Part(said),), SCHEME, marks, given=marks, why=why)
 
 
 def _prime(rolled: RollerOnArcs) -> Drawn:

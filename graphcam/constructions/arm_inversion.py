@@ -153,11 +153,10 @@ def _starts(inverted: ArmInverted) -> Step:
     ).with_values(arm=arm, name=names[k])
     found = np.stack([starts.shown, pitch.shown], axis=-1)
     drawn = [arc_through(arcs[n], found[n], ARC_OVERHANG) for n in range(len(names))]
-    phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     struck = run(said, STATION, names, arcs, starts, settings=no_setting)
-    marks = (*drawn, starts.dots(Role.CONSTRUCTION), *phases)
+    marks = (*drawn, starts.dots(Role.CONSTRUCTION))
     why = say("At the start of the lift the end of the arm lies on the prime circle, in every position of the frame.")
-    return Step(say("Arcs of the arm"), (struck, last), PROFILE, marks, why=why)
+    return Step(say("Arcs of the arm"), (struck,), PROFILE, marks, why=why)
 
 
 def _turned_arms_step(inverted: ArmInverted) -> Step:

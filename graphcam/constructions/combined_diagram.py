@@ -108,10 +108,10 @@ def _laying_off(region: Construction[Any]) -> Caption:
     k, longest = worked_station(integrated), float(np.abs(ends.shown.real).max())
     said = [
         say(
-            "Carry every displacement s across to the line of motion with the T-square, upwards from B₀. From every "
-            "mark lay v off horizontally with the dividers, {rise} on a rise and {back} on a return: v turned by 90° "
-            "with the cam, {rotation}. Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale "
-            "of s."
+            "Carry every displacement s to the line of motion, upwards from B₀, with the dividers or, from a "
+            "diagram level with it, across with the T-square. From every mark lay v off horizontally with the "
+            "dividers, {rise} on a rise and {back} on a return: v turned by 90° with the cam, {rotation}. "
+            "Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
         ).with_values(
             rise=side_caption(-sigma),
             back=side_caption(sigma),

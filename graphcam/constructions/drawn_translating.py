@@ -12,7 +12,7 @@ from graphcam.constructions.cam_analysis import AnalysisGivens
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
-from graphcam.constructions.kinematic_sketch import edge, guided_stem, low_point, offset_marks, plain_cam
+from graphcam.constructions.kinematic_sketch import sketched_stem
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
 from graphcam.constructions.stem_analysis import stem_analysis
@@ -25,8 +25,6 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 
-STEM_LENGTH, GUIDE_HEIGHT, SKETCH_OFFSET = 30.0, 9.0, 8.0
-"""The sizes of the kinematic diagram: length of the stem, height of its guide above the roller, and an offset [mm]."""
 ROLLER_CAPTION = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
 KNIFE_EDGE_CAPTION = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
 CENTRAL_REMARK = say("The line of motion passes through A.")
@@ -120,13 +118,7 @@ class DrawnTranslating(DrawnFollower):
         """The kinematic diagram: cam, roller, stem and guide."""
         # An offset that is to be found is drawn on the favourable side.
         side = sense(rotation) if self.place is None else float(np.sign(self.place))
-        b = low_point(SKETCH_OFFSET * side, roller_radius)
-        return (
-            *plain_cam(b, sense(rotation)),
-            *edge(b, roller_radius, -1),
-            *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT),
-            *offset_marks(SKETCH_OFFSET * side, self.place),
-        )
+        return sketched_stem("A", side, sense(rotation), roller_radius, self.place)
 
     def assignment(self, roller: bool) -> Caption:
         """The sentence that asks for a cam for a stem."""

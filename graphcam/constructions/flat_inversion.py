@@ -155,7 +155,6 @@ def _circle(inverted: profile_view.Inverted) -> Step:
 
 def _rays(inverted: profile_view.Inverted) -> Step:
     rays, starts = (inverted.acts[name].first for name in ("inverted positions", "starts"))
-    phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     said = say(
         "The cam turns {rotation}: hold it still and turn the follower the other way, {against}. For every station set "
         "the protractor to its angle from the vertical, {against}, draw the ray from the cam centre to the prime "
@@ -164,11 +163,10 @@ def _rays(inverted: profile_view.Inverted) -> Step:
     marks = (
         Segments(rays.shown, starts.shown, Role.CONSTRUCTION).left_by(rays),
         *number_labels(starts, _stations(inverted), -unit(starts.shown)),
-        *phases,
     )
     why = say("Seen from the cam, the follower goes round the other way and meets the same points of the cam.")
     turned = run(said, say("Ray {name}"), station_names(_stations(inverted)), rays, starts)
-    return Step(say("Rays of the inverted positions"), (turned, last), PROFILE, marks, why=why)
+    return Step(say("Rays of the inverted positions"), (turned,), PROFILE, marks, why=why)
 
 
 def _faces(inverted: profile_view.Inverted) -> Step:

@@ -359,15 +359,15 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     values |= {"overhang": guide.overhang - s, "way": say("up") if height > 0 else say("down")}
     laid = say("With the dividers lay off {base:g} mm from the tail of Q horizontally {side}, for l = {length:g} mm.")
     inclined = say(
-        "From there lay off {base:g} · μ(l + 2b)/l = {base:g} · {mu:g} · ({length:g} + 2 · "
+        "From there lay off {base:g} · f₂(l + 2b)/l = {base:g} · {mu:g} · ({length:g} + 2 · "
         "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
     )
     join = say("Join the tail of Q to this point with the ruler: on this line lies the reaction R of the guide.")
     parts = move_parts([(laid, base), (inclined, incline), (join, line)], values)
     marks = (across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION))
     why = say(
-        "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
-        "it and acts against the motion."
+        "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is f₂(l + 2b)/l "
+        "of it and acts against the motion."
     )
     return Step(title, parts, view, marks, why=why)
 

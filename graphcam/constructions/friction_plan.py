@@ -41,7 +41,7 @@ from graphcam.given.spring_load import SpringLoad
 class FrictionPlanGivens(plain.ForcePlanGivens):
     """What lies on the board; see :func:`friction_plan`.
 
-    mu : the coefficient of friction between cam and follower
+    mu : the coefficient of friction between cam and follower, f₁
     """
 
     mu: float
@@ -58,7 +58,7 @@ def _in_equilibrium(plan: Construction[FrictionPlanGivens]) -> Values:
 
 FORMULAS = (
     Formula(
-        r"N = \frac{Q}{\cos\alpha - \mu\sin\alpha}, \qquad T = \mu N",
+        r"N = \frac{Q}{\cos\alpha - f_1\sin\alpha}, \qquad T = f_1 N",
         r"N = \frac{<load:.1f>}{\cos(<alpha:.2f>^\circ) - <mu:g>\sin(<alpha:.2f>^\circ)} = <normal:.1f>\ \text{<N>}, "
         r"\qquad T = <mu:g> \cdot <normal:.1f> = <contact_friction:.1f>\ \text{<N>}",
         _in_equilibrium,
@@ -66,7 +66,7 @@ FORMULAS = (
             Symbol("N", say("the normal force"), "N"),
             Symbol("Q", say("the load on the follower"), "N"),
             ALPHA,
-            Symbol(r"\mu", say("the coefficient of friction between cam and follower")),
+            Symbol("f_1", say("the coefficient of friction between cam and follower")),
             Symbol("T", say("the friction at the cam"), "N"),
         ),
         of="normal",
@@ -167,7 +167,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     values = {"base": BASE, "mu": mu, "height": BASE * mu, "side": towards(-float(sigma))}
     laid = say("With the dividers lay off {base:g} mm on the normal from the head of Q.")
     inclined = say(
-        "From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."
+        "From there lay off {base:g} · f₁ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."
     )
     join = say("Join the head of Q to this point with the ruler: on this line lies the contact force F.")
     parts = move_parts([(laid, base), (inclined, incline), (join, line)], values)
@@ -176,8 +176,8 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     run = Line(np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION).left_by(line)
     marks = (run, incline.line_from(base, Role.CONSTRUCTION), base.dots(Role.CONSTRUCTION))
     why = say(
-        "The cam slides past the follower in its own sense and drags it along the profile with μN, so F makes the "
-        "friction angle, whose tangent is μ, with the normal."
+        "The cam slides past the follower in its own sense and drags it along the profile with f₁N, so F makes the "
+        "friction angle, whose tangent is f₁, with the normal."
     )
     return Step(say("The line of the contact force"), parts, view, marks, why=why)
 

@@ -107,6 +107,8 @@ BELOW_PHASES_OFFSET, BELOW_DEGREES_OFFSET = 6.0, 10.0
 """The times stand so far below the angles of the phases, and below a line of degrees without them [mm of paper]."""
 SECOND_GRADUATION_OFFSET = 17.0
 """The second graduation of an ordinate stands so far beside the first one [mm of paper]."""
+LONG_NUMBER = 10_000.0
+"""Values from this one on are numbered in thousands."""
 UNITS_AT_SPEED = {"mm": ("m/s", "m/s²", "m/s³"), "rad": ("rad/s", "rad/s²", "rad/s³")}
 """The units of velocity, acceleration and jerk at a speed, by that of the lift."""
 SYMBOLS = "vaj"
@@ -201,9 +203,12 @@ def graduated_at_speed(
     """The second graduation of the ordinates of v, a or j, beside the one at the ``end`` of the turn [mm of paper]."""
     at, x = scale_at_speed(per_mm, symbol, omega, lift_unit), end + SECOND_GRADUATION_OFFSET
     low, high = height_range(heights)
+    per_mm, of_unit = at.per_mm, unit(at.unit)
+    if max(-low, high) * per_mm >= LONG_NUMBER:
+        per_mm, of_unit = per_mm / 1000, say("10³ {unit}", unit=of_unit)
     return _spare(
         Line(x + UP * np.array([low, high]), Role.SCALE, of=of),
-        *graduation_marks(heights, at.per_mm, x, of, name=sequence([symbol, unit(at.unit)])),
+        *graduation_marks(heights, per_mm, x, of, name=sequence([symbol, of_unit])),
     )
 
 

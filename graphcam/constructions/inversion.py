@@ -12,7 +12,7 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
-from graphcam.drafting.marks import Line, Mark, Role, Segments
+from graphcam.drafting.marks import Dimension, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import OFFSET, RADIUS, S0, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
@@ -96,6 +96,8 @@ def inversion(
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
+AXIS_DIMENSION_DEPTH = 3.0
+"""How far below the upper end of the axes their distance is dimensioned [mm of paper]."""
 MIN_NUMBERED_RADIUS = 12.0
 """The tangents are numbered on the offset circle, if its radius is not less [mm of paper]; else on the prime circle."""
 
@@ -126,9 +128,14 @@ def _circles(inverted: OffsetInverted) -> Step:
     )
     if e:
         circle, title = inverted.acts["offset circle"], say("Prime circle and offset circle")
-        further, of_arrow = profile_view.radius_arrow(inverted, circle, start * UP, "e", abs(e))
         told = circle_caption(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
-        circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle, *of_arrow))]
+        circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle,))]
+        # The distance of two axes, at the upper end of both.
+        high = UP * profile_view.centre_line_end(inverted, UP)
+        axis = Line(np.array([top.place, foot.place.real + high]), Role.AXIS).left_by(line)
+        ends = sorted((0.0, foot.place.real))
+        named = say("{symbol} = {length:g}", symbol="e", length=abs(e))
+        further = (axis, Dimension(*(x + high - AXIS_DIMENSION_DEPTH * UP for x in ends), named).left_by(foot))
         upright = say(
             "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle "
             "up to the prime circle: {line}."
@@ -137,7 +144,7 @@ def _circles(inverted: OffsetInverted) -> Step:
             "The follower's line passes the cam centre at the distance e in every position, so it always touches the "
             "offset circle; s is counted from the prime circle."
         )
-    parts.append(Part(upright.with_values(line=_first_line(inverted)), (line, top)))
+    parts.append(Part(upright.with_values(line=_first_line(inverted)), (foot, line, top)))
     return profile_view.prime_step(inverted, title, start, circles, (*further, drawn), why=why, parts=tuple(parts))
 
 
@@ -153,8 +160,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     motion, starts, feet = (inverted.acts[name] for name in ("motion", "starts", "feet"))
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
     numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= MIN_NUMBERED_RADIUS else starts
-    phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    marks = (lines, *number_labels(numbered, stations, -unit(numbered.shown)), *phases)
+    marks = (lines, *number_labels(numbered, stations, -unit(numbered.shown)))
     said = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
         "A and count {against} from {line}, from station to station {steps}, so station {name} at {angle}; draw and "
@@ -174,7 +180,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
     names = station_names(stations)
     turned = run((tangents if e else said).with_values(**values), STATION, names, rays, feet, starts, motion)
-    return Step(title, (turned, last), PROFILE, marks, why=why)
+    return Step(title, (turned,), PROFILE, marks, why=why)
 
 
 def _displacement_step(inverted: OffsetInverted) -> Step:

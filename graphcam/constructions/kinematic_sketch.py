@@ -24,12 +24,14 @@ GUIDE_HALF_WIDTH, GUIDE_LENGTH, LINE_OVERHANG = 2.2, 8.0, 5.0
 """Half the width and the length of a guide, and how far the line of motion goes on above the stem [mm]."""
 KNIFE_EDGE_HEIGHT, LEADER_LENGTH = 5.0, 6.0
 """The height of a knife edge, and the length of the leader of a link's number [mm]."""
+STEM_LENGTH, GUIDE_HEIGHT, SKETCH_OFFSET = 30.0, 9.0, 8.0
+"""The length of a stem on an edge, the height of its guide above the roller, and an offset [mm]."""
 LINE_BOTTOM = -20.0
 """How far the line of motion goes down, and the height of the offset's dimension [mm]."""
 
 
-def plain_cam(towards: complex, sigma: int) -> tuple[Mark, ...]:
-    """A base circle and a nose with straight flanks, on its bearing A; the follower stands on it in a direction.
+def plain_cam(towards: complex, sigma: int, centre: str = "A") -> tuple[Mark, ...]:
+    """A base circle and a nose with straight flanks, on its bearing; the follower stands on it in a direction.
 
     >>> base, nose, flanks, *_ = plain_cam(UP, 1)
     >>> bool(np.allclose(((flanks.ends - flanks.starts) * flanks.starts.conj()).real, 0))  # they touch the base circle
@@ -37,19 +39,19 @@ def plain_cam(towards: complex, sigma: int) -> tuple[Mark, ...]:
     """
     axis = cmath.phase(towards) - sigma * NOSE_ANGLE
     half = math.acos((BASE_RADIUS - NOSE_RADIUS) / NOSE_DISTANCE)
-    centre = cmath.rect(NOSE_DISTANCE, axis)
+    nose = cmath.rect(NOSE_DISTANCE, axis)
     ends: Points = np.exp(1j * np.array([axis - half, axis + half]))
     begin = cmath.phase(towards) + sigma * 0.2
     arrow = rotation_arrow(begin, sigma, ROTATION_ARROW_RADIUS)
     middle = cmath.rect(ROTATION_ARROW_RADIUS, (arrow.start + arrow.end) / 2)
     return (
         Arc(0j, BASE_RADIUS, axis + half, axis - half + 2 * math.pi, Role.RESULT),
-        Arc(centre, NOSE_RADIUS, axis - half, axis + half, Role.RESULT),
-        Segments(BASE_RADIUS * ends, centre + NOSE_RADIUS * ends, Role.RESULT),
-        *bearing(0j, "A", 1 - 1j),
+        Arc(nose, NOSE_RADIUS, axis - half, axis + half, Role.RESULT),
+        Segments(BASE_RADIUS * ends, nose + NOSE_RADIUS * ends, Role.RESULT),
+        *bearing(0j, centre, 1 - 1j),
         arrow,
         Label(middle, "ω", middle),
-        *link("1", centre, centre),
+        *link("1", nose, nose),
         *link("0", -3 - 5j, -1 - 1j),
     )
 
@@ -128,3 +130,20 @@ def offset_marks(across: float, offset: float | None) -> tuple[Mark, ...]:
         return ()
     below, text = LINE_BOTTOM * UP, size("e", None if offset is None else abs(offset))
     return (Line(np.array([0j, below]), Role.AXIS), Dimension(below + min(across, 0), below + max(across, 0), text))
+
+
+def sketched_stem(
+    centre: str, side: float, sigma: int, roller_radius: float | None, offset: float | None
+) -> tuple[Mark, ...]:
+    """The whole diagram of a stem with a roller or a knife edge: cam on its bearing ``centre``, stem and guide.
+
+    side : where the line of motion stands: -1 to the left of the centre, 0 over it, +1 to the right
+    roller_radius, offset : mm, None where they are open
+    """
+    b = low_point(SKETCH_OFFSET * side, roller_radius)
+    return (
+        *plain_cam(b, sigma, centre),
+        *edge(b, roller_radius, -1),
+        *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT),
+        *offset_marks(SKETCH_OFFSET * side, offset),
+    )

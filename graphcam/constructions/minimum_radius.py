@@ -495,8 +495,9 @@ def _centre_lines(region: LeastRadius, level: Drawn) -> tuple[Mark, ...]:
     line, e, s0 = region.acts.get("line of the offset"), region.readings["offset"].act, region.readings["s0"].act
     of, index = (line.act, line.first.index.repeat(2)) if offset and line is not None else (None, None)
     shown = say("s₀ = {s0:.2f}", s0=float(region.value("s0")))
-    found = say("e = {e:.2f}", e=float(region.value("offset")))
-    shown_offset = found if offset is None else say("e = {e:g}", e=offset)
+    # A length has no sign: the side is seen.
+    found = say("e = {e:.2f}", e=abs(float(region.value("offset"))))
+    shown_offset = found if offset is None else say("e = {e:g}", e=abs(offset))
     return (
         Line(np.array([centre - 6 * UP, centre.real + 6 * UP]), Role.AXIS, of=of, index=index),
         level.line_from(centre, Role.CONSTRUCTION),

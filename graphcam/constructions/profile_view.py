@@ -49,8 +49,10 @@ PRIME_WHY = say(
     "Only the motion of the cam relative to the follower matters: with the cam held still, its outline "
     "is what the follower touches on its way round."
 )
-PHASE_ARC_OFFSET = 9.0
-"""How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
+PHASE_ARC_OFFSET, PHASE_RAY_OVERRUN = 5.0, 2.0
+"""How far the arcs of the phase angles lie outside all that is drawn in a phase, and their limits beyond them [mm]."""
+CENTRE_LINE_OVERRUN = 9.0
+"""How far the centre lines go beyond the pitch curve [mm]."""
 
 
 CURVE_MEANINGS = {
@@ -236,12 +238,10 @@ ARC_STEP = math.radians(1)
 """The arcs of a closed curve are drawn through points this far apart [rad]."""
 
 
-def radius_arrow(
-    inverted: Inverted, circle: Drawn, start: complex, symbol: str, radius: float
-) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:
-    """An arrow to a circle from its centre, in the middle of the longest phase, where there is most room.
+def _radius_arrow(inverted: Inverted, circle: Drawn, start: complex) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:
+    """An arrow to the prime circle from its centre, in the middle of the longest phase, where there is most room.
 
-    start : the direction in which the circle is at the start of the turn; radius : of the machine [mm]
+    start : the direction in which the circle is at the start of the turn
 
     Returns
     -------
@@ -252,9 +252,10 @@ def radius_arrow(
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
     hand, sigma = errorless_hand(inverted), sense(inverted.givens.rotation)
     towards = complex(turned_direction(start / abs(start), -sigma * middle))
-    ray = hand.erect(f"radius {symbol}", circle.first, towards)
-    tip = hand.cross(f"tip of {symbol}", ray, circle.first)
-    named, text = hand.divide(symbol, ray, tip, 0.6), say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
+    ray = hand.erect("radius r₀", circle.first, towards)
+    tip = hand.cross("tip of r₀", ray, circle.first)
+    named, text = hand.divide("r₀", ray, tip, 0.6), say("{symbol} = {radius:g}", symbol="r₀")
+    text = text.with_values(radius=inverted.givens.prime_radius)
     arrow = Arrow(ray.place, tip.place, Role.DIMENSION).left_by(ray)
     return (arrow, named.label(text, tip.place * UP)), (ray, named)
 
@@ -272,38 +273,61 @@ def start_of_turn(inverted: Inverted) -> complex:
     return complex(np.append(back[~np.isnan(back)], UP)[0])
 
 
-def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
-    """The angles of the phases outside the curve, against the rotation, from the point where the lift starts.
+def phases_step(inverted: Inverted, roller: float) -> Step:
+    """The step of the angles of the phases, against the rotation, each outside all that is drawn in its phase.
 
-    They are marked last, when all positions are drawn.
+    They are counted from the point where the lift starts, of an arm and a swinging face from the pivot's first place.
+
+    roller : the radius of the roller's circles [mm of paper]
     """
     motion: Motion = inverted.givens.integrated.givens.motion
-    sigma, radius = sense(inverted.givens.rotation), _outer_radius(inverted)
+    sigma, pivots = sense(inverted.givens.rotation), inverted.acts.get("pivots")
+    start = start_of_turn(inverted) if pivots is None else RIGHT
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
+    spans = [(min(each), max(each)) for each in pairwise(limits.tolist())]
+    radii = np.array([_reach(inverted, roller, *span) for span in spans]) + PHASE_ARC_OFFSET
     hand = errorless_hand(inverted)
     rays = hand.erect("limits of the phases", hand.given("cam centre", 0j * limits[:-1]), np.exp(1j * limits[:-1]))
-    of, index, ends = rays.act, rays.index, (radius + PHASE_ARC_OFFSET / 2) * rays.directions
+    of, index = rays.act, rays.index
+    ends = (np.maximum(radii, np.roll(radii, 1)) + PHASE_RAY_OVERRUN) * rays.directions
     angles = [
-        AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of=of, index=index[k : k + 1])
-        for k, (a, b) in enumerate(pairwise(limits))
+        AngleMark(0j, radius, *span, phase_angle(motion, k), of=of, index=index[k : k + 1])
+        for k, (radius, span) in enumerate(zip(radii.tolist(), spans, strict=True))
     ]
     said = say("Mark the angles of the phases outside, {against}: {angles}.").with_values(**position_words(inverted))
-    return [Segments(0.0 * ends, ends, Role.AXIS, of=of, index=index), *angles], Part(said, (rays,))
+    why = say("While the follower does what it does in a phase, this part of the cam passes it.")
+    marks = Segments(0.0 * ends, ends, Role.AXIS, of=of, index=index), *angles
+    return Step(say("Phase angles"), (Part(said, (rays,)),), PROFILE, marks, why=why)
 
 
-def _outer_radius(inverted: Inverted) -> float:
-    """The radius of the arcs of the phase angles: outside the prime circle and the pitch curve [mm of paper]."""
+def _reach(inverted: Inverted, roller: float, start: float, end: float) -> float:
+    """How far the curves and the roller's circles reach between two directions from the cam centre [mm of paper]."""
+    places, pivots = inverted.first("pitch"), inverted.acts.get("pivots")
+    seen = places[:, None] * np.exp(-1j * np.linspace(start, end, max(2, round((end - start) / ARC_STEP))))
+    # Where a direction meets a circle the second time.
+    across = roller**2 - seen.imag**2
+    beyond = np.where(across >= 0, seen.real + np.sqrt(np.maximum(across, 0.0)), 0.0).max(axis=1)
+    within = np.abs(np.angle(places * np.exp(-0.5j * (start + end)))) <= (end - start) / 2
+    farthest = np.where(within, np.abs(places) + roller, beyond)
+    inner = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
+    return float(np.fmax.reduce(farthest, initial=inner if pivots is None else np.abs(pivots.first.points[0])))
+
+
+def centre_line_end(inverted: Inverted, way: complex) -> float:
+    """How far a centre line goes in a direction from the cam centre: beyond prime circle and pitch curve [mm]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + PHASE_ARC_OFFSET
+    along = (inverted.first("pitch") * np.conj(way)).real
+    return float(np.fmax.reduce(along, initial=prime)) + CENTRE_LINE_OVERRUN
 
 
 def centre_marks(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
-    reach = (_outer_radius(inverted) + PHASE_ARC_OFFSET) * np.array([-1, 1])
     return (
-        Line(reach + 0j, Role.AXIS),
-        Line(UP * reach, Role.AXIS),
+        *(
+            Line(way * np.array([-centre_line_end(inverted, -way), centre_line_end(inverted, way)]), Role.AXIS)
+            for way in (RIGHT, UP)
+        ),
         rotation_arrow(-np.pi / 2, sigma, 0.6 * prime),
         Label(0.6 * prime * complex(turned_direction(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
         Dots(np.array([0j]), Role.RESULT),
@@ -326,7 +350,7 @@ def prime_step(
     parts : what is drawn after the prime circle
     """
     centre, circle = centre_marks(inverted), inverted.acts["prime circle"]
-    arrow, of_arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
+    arrow, of_arrow = _radius_arrow(inverted, circle, start)
     marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
     prime = say_in("drawn", "the prime circle about the cam centre A")
     told = circle_caption(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)

@@ -240,11 +240,10 @@ def _rest(inverted: SwingingInverted) -> Step:
         angle_at(pivots[0].place, start, end, radius, named, inverted.readings["psi0"].act),
         *(*drawn, starts.dots(Role.CONSTRUCTION), tangent.label("T", tangent.place)),
     )
-    phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     struck = run(others, STATION, stations, arcs, starts, settings=no_setting)
     why = say("The angle in a semicircle is a right angle, so CT touches the circle about A in T.")
-    parts = Part(first, (half, thales, tangent, line, centres)), struck, last
-    return Step(say("The face at rest"), parts, PROFILE, (*marks, *phases), ("psi0",), why=why)
+    parts = Part(first, (half, thales, tangent, line, centres)), struck
+    return Step(say("The face at rest"), parts, PROFILE, marks, ("psi0",), why=why)
 
 
 def _faces(inverted: SwingingInverted) -> Step:

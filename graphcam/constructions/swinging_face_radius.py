@@ -387,11 +387,17 @@ def _centre_step(region: SwingingRegion) -> Step:
         "place to the cam centre. Mark it A₀."
     ).with_values(paper=float(np.asarray(circle.radius)), distance=givens.distance, ratio=ratio_text(mu))
     measured = _radius_caption(f).with_values(paper=depth / mu, mu=mu, depth=depth, r0=r0, f=abs(f))
-    turn = float(np.angle(centre.place / -1))
+    # The arc meets all lines.
+    met = [_ends_on(region, name) for name in ("limits", "limits at rest") if name in region.acts]
+    turns = np.angle(-np.concatenate([*met, [centre.place, -1.0]]))
     foot = complex(centre.place.real)
     marks = (
         Arc(
-            0j, abs(centre.place), np.pi + min(turn, 0.0) - 0.1, np.pi + max(turn, 0.0) + 0.25, Role.CONSTRUCTION
+            0j,
+            abs(centre.place),
+            np.pi + float(np.nanmin(turns)) - 0.1,
+            np.pi + float(np.nanmax(turns)) + 0.1,
+            Role.CONSTRUCTION,
         ).left_by(circle),
         *(centre.dots(Role.RESULT), centre.label("A₀", -1 - 1j)),
         Dimension(foot, centre.place, say("{depth:.2f}", depth=depth), -12.0, of=region.readings["depth"].act),

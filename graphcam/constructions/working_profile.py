@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import low_dwell_symbol, phase_kind, station_names
-from graphcam.constructions.profile_view import Inverted, piecewise_curve
+from graphcam.constructions.profile_view import Inverted, phases_step, piecewise_curve
 from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn, Setting
@@ -187,10 +187,12 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
 
 def _draw(profile: Profile) -> list[Step]:
     rounded = [_rounding_step(profile, profile.givens.rolled)] if profile.givens.rolled else []
-    if not profile.givens.roller_radius:
-        return [_envelope(profile), *_arcs_of_dwells(profile)]
+    inverted, roller = profile.givens.inverted, profile.givens.roller_radius
+    phases = phases_step(inverted, roller / inverted.givens.mu_l.per_mm)
+    if not roller:
+        return [_envelope(profile), *_arcs_of_dwells(profile), phases]
     steps = [*rounded, _circles(profile), _contact_points_step(profile), _envelope(profile), _angles(profile)]
-    return [*steps, *_arcs_of_dwells(profile)]
+    return [*steps, *_arcs_of_dwells(profile), phases]
 
 
 def _rounding_step(profile: Profile, rolled: Rolled) -> Step:

@@ -125,17 +125,17 @@ def _presses(spring: SpringDesign) -> Caption:
 NORMAL_FORCE = {
     ("stem", False): r"N = \frac{\xi}{\cos\alpha}, \qquad M = N\,v\cos\alpha.",
     ("stem", True): (
-        r"N = \frac{\xi}{\cos\alpha - \mu\sin\alpha}, \qquad "
-        r"M = N\,\bigl(v\,(\cos\alpha - \mu\sin\alpha) + \mu\,w\bigr)."
+        r"N = \frac{\xi}{\cos\alpha - f_1\sin\alpha}, \qquad "
+        r"M = N\,\bigl(v\,(\cos\alpha - f_1\sin\alpha) + f_1\,w\bigr)."
     ),
     ("arm", False): r"N = \frac{\xi}{l\cos\alpha}, \qquad M = N\,v\,l\cos\alpha.",
     ("arm", True): (
-        r"N = \frac{\xi}{l\cos\alpha - \sigma\mu\,(l\sin\alpha - r)}, \qquad "
-        r"M = v\,\xi + \mu\,N\,w."
+        r"N = \frac{\xi}{l\cos\alpha - \sigma f_1\,(l\sin\alpha - r)}, \qquad "
+        r"M = v\,\xi + f_1\,N\,w."
     ),
     ("swinging face", False): r"N = \frac{\xi}{q}, \qquad M = v\,\xi, \qquad q = \frac{c\cos\psi}{1 + \sigma v}.",
     ("swinging face", True): (
-        r"N = \frac{\xi}{q + \sigma\mu f}, \qquad M = v\,\xi + \mu\,N\,w, \qquad "
+        r"N = \frac{\xi}{q + \sigma f_1 f}, \qquad M = v\,\xi + f_1\,N\,w, \qquad "
         r"q = \frac{c\cos\psi}{1 + \sigma v}."
     ),
 }
@@ -148,7 +148,7 @@ def forces(solution: Solution) -> list[Block]:
     mean, most, fewest = spring.torques
     least, greatest = spring.forces.min_normal(), spring.max_normal
     rubs = say(
-        "Between cam and follower there is friction with $\\mu = {friction}$: the force $\\mu N$ acts along the "
+        "Between cam and follower there is friction with $f_1 = {friction}$: the force $f_1 N$ acts along the "
         "profile, in the cam's sense, and $w$ is the sliding speed divided by $\\omega$.",
         friction=general(spring.friction),
     )

@@ -42,6 +42,7 @@ class LabelText:
     of : the dimension to which the text belongs
     source : the act that it names
     barred : (4, b) the left, bottom, right and top of boxes of other views, which neither text nor leader enters
+    close : the place that counts for the room of its view: of an arc the one inside it
     """
 
     text: str
@@ -54,6 +55,7 @@ class LabelText:
     of: Length | Angle | None = None
     source: Source | None = None
     barred: Floats = field(default_factory=lambda: np.empty((4, 0)))
+    close: int = 0
 
     @property
     def size(self) -> complex:
@@ -151,7 +153,7 @@ def label_along_arc(centre: complex, radius: float, start: float, end: float, te
     spread = 6.0 * np.abs(shares - 0.5)
     middle = label_around(complex(centre + radius * rays[0]), text, height, complex(rays[0]))
     beside = np.concatenate([centre + (radius + reach) * rays, centre + (radius - reach) * rays])
-    return middle.on_line(beside, 0.0, np.concatenate([spread, 2 + spread]), dearer=3)
+    return replace(middle.on_line(beside, 0.0, np.concatenate([spread, 2 + spread]), dearer=3), close=len(shares))
 
 
 def label_along(start: complex, end: complex, text: str, height: float) -> LabelText:

@@ -55,6 +55,8 @@ ROLE_COSTS: Mapping[str, float] = {
 """Costs by role, where they do not follow from the width of its lines."""
 HATCHING_MARGIN = 0.8
 """The free margin in the hatching around a text [mm]."""
+SHELF_GAP = 0.6
+"""The gap between a text and the shelf of its leader [mm]."""
 FIRST_PLACES = 24
 """The number of places of a text that are tried before the others."""
 LEADER_FRACTIONS = np.linspace(0.1, 0.95, 60)
@@ -349,8 +351,8 @@ def _choose_in_turn(
 def _labels_crossed(writings: Sequence[LabelText], chosen: Mapping[int, int]) -> dict[int, int]:
     """The labels whose leaders cross others, in the order of choice, and how many each crosses."""
     led = [k for k, place in chosen.items() if np.isfinite(writings[k].anchors[place])]
-    leaders = [placed_label(writings[k], chosen[k])[1] for k in led]
-    starts, ends = linework(leaders)
+    # Each has its way to the text, and its shelf.
+    starts, ends = (each[::2] for each in linework(placed_label(writings[k], chosen[k])[1] for k in led))
     counts = _crossed_leaders(starts, ends, starts, ends).astype(int).tolist()
     return {k: count for k, count in zip(led, counts, strict=True) if count}
 
@@ -421,17 +423,20 @@ def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:
 
 
 def _leader_end(writing: LabelText, centres: Points, anchors: Points) -> Points:
-    """The place on the text's box that is nearest to the anchor."""
-    half, away = writing.size / 2 + 0.4 * (1 + 1j), anchors - centres
-    return centres + np.clip(away.real, -half.real, half.real) + 1j * np.clip(away.imag, -half.imag, half.imag)
+    """The end of the text's shelf that is nearer to the anchor; the shelf is over the text where that lies higher."""
+    half, away = writing.size / 2 + SHELF_GAP * (1 + 1j), anchors - centres
+    across, up = np.where(away.real < 0, -1, 1), np.where(away.imag > half.imag, 1, -1)
+    return centres + across * half.real + 1j * up * half.imag
 
 
 def placed_label(writing: LabelText, k: int) -> list[Entity]:
-    """The text in one of its places, and its leader where that is far."""
+    """The text in one of its places, and where that is far a leader with the shelf on which the text stands."""
     drawn: list[Entity] = [writing.set_at(k)]
     if np.isfinite(writing.anchors[k]):
-        end = _leader_end(writing, writing.centres[k : k + 1], writing.anchors[k : k + 1])
-        drawn.append(Strokes(writing.anchors[k : k + 1], end, Role.DIMENSION, writing.source))
+        centre, anchor = writing.centres[k : k + 1], writing.anchors[k : k + 1]
+        end = _leader_end(writing, centre, anchor)
+        ways = np.concatenate([anchor, end]), np.concatenate([end, end + 2 * (centre - end).real])
+        drawn.append(Strokes(*ways, Role.DIMENSION, writing.source))
     return drawn
 
 

@@ -28,7 +28,7 @@ from graphcam.sheets.page_filling import ONE_PAGE, fill, min_pages
 from graphcam.sheets.page_space import FRAME_MARGIN, OpenPage
 from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, taken_boxes, title_box
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
-from graphcam.sheets.view_panels import panels
+from graphcam.sheets.view_panels import LABEL_MARGIN, are_disjoint, panels
 from graphcam.words import Tell
 
 NOTES_WIDTH = 180.0
@@ -139,8 +139,10 @@ def profile_room(paper: str, frame: str, orientation: str | None = None) -> tupl
     if paper in ONE_PAGE:
         # Below the diagrams, left of the title block.
         return inside.width - block.width, inside.height - 445.0
-    above = inside.width, inside.height - block.height - HEADING_HEIGHT
-    beside = inside.width - block.width, inside.height - HEADING_HEIGHT
+    # Beside the title block there is air too, and a cell of the grid is lost at either edge.
+    air = LABEL_MARGIN + 2 * MESH
+    above = inside.width, inside.height - block.height - HEADING_HEIGHT - air
+    beside = inside.width - block.width - air, inside.height - HEADING_HEIGHT
     return max(above, beside, key=min)
 
 
@@ -191,9 +193,12 @@ class StepPart:
 
 def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
     """The parts of all steps on a page."""
+    standing = leaf.views.items()
+    # Where views stand in the corners of one another's boxes, their outlines are what is kept clear of.
+    apart = are_disjoint([panel.drawn.moved(origin) for _, (panel, origin) in standing])
     boxes = {
-        name: [box.moved(origin) for box in (panel.drawn, panel.title_box)]
-        for name, (panel, origin) in leaf.views.items()
+        name: [box.moved(origin) for box in ((panel.drawn, panel.title_box) if apart else panel.outline)]
+        for name, (panel, origin) in standing
     }
     fields = [*taken_boxes(leaf.sheet, 0.0), *(block.box.moved(at) for block, at in leaf.blocks)]
     for number, _, step in part.steps:

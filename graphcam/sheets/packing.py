@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -94,6 +95,11 @@ class Room:
 
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
         """The move x + iy of the boxes, as one rigid body, into free room; None if there is no room."""
+        found = self.moves(boxes)
+        return None if found is None else found.best(preference)
+
+    def moves(self, boxes: Sequence[Box]) -> "FreeMoves | None":
+        """All moves of the boxes, as one rigid body, into free room; None if there is no room."""
         cells = np.array([self._cells(box) for box in boxes])
         least, most = cells[:, :2].min(axis=0), cells[:, 2:].max(axis=0)
         # Moves, in cells, that keep everything inside.
@@ -106,8 +112,7 @@ class Room:
         wide = self.full.shape[1] + 1
         y = places // wide
         x = (places - y * wide).astype(np.float64)
-        best = int(np.argmin(preference(x, y.astype(np.float64))))
-        return MESH * complex(x[best] - least[0], y[best] - least[1])
+        return FreeMoves(x, y.astype(np.float64), complex(*least))
 
     def _free_points(self, cells: NDArray[np.int_], rows: int, columns: int) -> NDArray[np.intp]:
         """The points of the grid, numbered row after row, to which boxes of cells can be moved; all in order."""
@@ -132,6 +137,20 @@ class Room:
             free = inside == counts.take(below + rights) - counts.take(below + lefts)
             places, done = places[free.all(axis=0)], done + len(lefts)
         return places
+
+
+@dataclass(frozen=True, eq=False)
+class FreeMoves:
+    """Where the lower left corner of boxes may lie (k,), in cells, and where it lies."""
+
+    x: Grid
+    y: Grid
+    corner: complex
+
+    def best(self, preference: Preference) -> complex:
+        """The preferred move x + iy [mm]."""
+        k = int(np.argmin(preference(self.x, self.y)))
+        return MESH * (complex(self.x[k], self.y[k]) - self.corner)
 
 
 def least_weighted(across: float, up: float) -> Preference:

@@ -31,6 +31,7 @@ from graphcam.sheets.packing import (
 )
 from graphcam.sheets.page_space import (
     MAX_EMPTY_SHARE,
+    KnownMoves,
     OpenPage,
     ViewRun,
     blank_page,
@@ -141,7 +142,7 @@ def _halves(sheet: Format, column: list[Panel]) -> Runs:
     return [column[:half], column[half:]]
 
 
-def _page(sheet: Format, views: Sequence[Panel], way: Way, gap: float) -> OpenPage | None:
+def _page(sheet: Format, views: Sequence[Panel], way: Way, gap: float, known: KnownMoves) -> OpenPage | None:
     """A page with the views; None if they have no room."""
     page = blank_page(sheet)
     alone = (run[0] for run in way.runs if len(run) == 1)
@@ -149,7 +150,7 @@ def _page(sheet: Format, views: Sequence[Panel], way: Way, gap: float) -> OpenPa
     for panels in way.runs:
         run = _standing_run(sheet, panels, gap, way)
         preference = way.preference or _preferred(sheet, panels, largest)
-        if run is None or (by := page.find(run.boxes, preference)) is None:
+        if run is None or (by := page.find_run(run, preference, known)) is None:
             return None
         page.put_views(run, by)
     # As the work has them, in whatever order they found room.
@@ -199,7 +200,8 @@ class CutViews:
             views = self.views[start:end]
             fits = end - start == 1 or sum(self._areas[start:end]) <= self._most(start, end)
             ways = _ways(self.sheet, views, closely=self._closely(start, end)) if fits else ()
-            pages = ((way, _page(self.sheet, views, way, DIAGRAM_GAPS[-1])) for way in ways)
+            known = KnownMoves()
+            pages = ((way, _page(self.sheet, views, way, DIAGRAM_GAPS[-1], known)) for way in ways)
             self._found[start, end] = next(((way, page) for way, page in pages if page), None)
         return self._found[start, end]
 
@@ -335,7 +337,7 @@ def _pages_of(cut_views: CutViews, cut: tuple[int, ...], gap: float) -> list[Ope
             pages.append(blank_page(cut_views.sheet))
             continue
         way, closest = found
-        wider = None if gap == DIAGRAM_GAPS[-1] else _page(cut_views.sheet, cut_views.views[start:stop], way, gap)
+        wider = None if gap == DIAGRAM_GAPS[-1] else _page(cut_views.sheet, cut_views.views[start:stop], way, gap, {})
         pages.append(wider or closest)
     return pages
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import product
@@ -11,11 +11,11 @@ import numpy as np
 
 from graphcam.sheets.formats import Format
 from graphcam.sheets.model import Box, bounding_box
-from graphcam.sheets.packing import MESH, Preference, Room, middle, prefer_high
+from graphcam.sheets.packing import MESH, FreeMoves, Preference, Room, middle, prefer_high
 from graphcam.sheets.sampling import Floats
 from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.sheets.tables import Block
-from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, clusters, panel_origins, shares
+from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, clusters, panel_origins
 
 FRAME_MARGIN = 4.0
 """The free margin along the frame [mm]; the air about a view is a part of it."""
@@ -28,6 +28,10 @@ MAX_SPREAD = 5
 """More views and tables than this stand close enough."""
 SPREAD_ROUNDS, SPREAD_PARTS, SPREAD_GAIN = 2, (0.5, 0.25, 0.75), 5e-3
 """How often all that stands on a page is moved apart, to which parts of its free way, and the gain that is worth it."""
+
+
+KnownMoves = dict[Hashable, FreeMoves | None]
+"""Where views have room beside others, by both."""
 
 
 @cache
@@ -147,16 +151,29 @@ class OpenPage:
         self.taken.append(box)
         self.room.take(box.grown(margin))
 
-    def shares(self, views: Iterable[Panel]) -> bool:
-        """Whether one of the views shares an axis with one on the page."""
-        return any(shares(view, (panel for panel, _ in self.views.values())) for view in views)
-
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
         """The move of boxes which stand together into free room; None if there is none."""
-        # With their corner on the grid on which room is sought they touch the fewest of its cells.
-        to_grid = self.room.corner - bounding_box(boxes).corner
-        by = self.room.find([box.moved(to_grid) for box in boxes], preference)
+        to_grid, boxes = self._on_grid(boxes)
+        by = self.room.find(boxes, preference)
         return None if by is None else by + to_grid
+
+    def find_run(self, run: ViewRun, preference: Preference, known: KnownMoves) -> complex | None:
+        """The move of views which stand together into free room; None if there is none.
+
+        known : where they have room beside what stands on the page, whatever is preferred: that is asked for often
+        """
+        to_grid, boxes = self._on_grid(run.boxes)
+        standing = tuple((id(panel), origin) for panel, origin in self.views.values())
+        key = standing, tuple(map(id, run.views)), run.closely, run.gap
+        if key not in known:
+            known[key] = self.room.moves(boxes)
+        found = known[key]
+        return None if found is None else found.best(preference) + to_grid
+
+    def _on_grid(self, boxes: Sequence[Box]) -> tuple[complex, list[Box]]:
+        """A move, and the boxes moved: with their corner on the grid of the room they touch the fewest of its cells."""
+        to_grid = self.room.corner - bounding_box(boxes).corner
+        return to_grid, [box.moved(to_grid) for box in boxes]
 
     def find_for(self, block: Block, preference: Preference) -> complex | None:
         """The move of a table into an empty part of a diagram or beside the views; None without room."""

@@ -1,7 +1,7 @@
 """The empty sheet: gauge, frame by GOST 2.301 or ISO 5457, title block by form 1 of GOST 2.104 or ISO 7200."""
 
 import cmath
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NoReturn
@@ -290,7 +290,7 @@ def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell 
     gauged : whether it has a rule of 100 mm, which a part drawing has not
     """
     entities: list[Entity] = [Stroke(np.array(paper.content.corners), "frame", closed=True)]
-    entities += _binding_column(paper, title, tell) if paper.frame == "gost" else _references(paper)
+    entities += _binding_column(paper, title, sheet, tell) if paper.frame == "gost" else _references(paper)
     entities += title_block(paper.frame, title_box(paper).corner, title, sheet, sheets, tell)
     entities += gauge(_gauge_at(paper), tell) if gauged else []
     entities += [Text(_remark_at(paper), title.remark, 2.5)] if title.remark else []
@@ -310,21 +310,33 @@ def _number_box(paper: Format) -> Box:
     return Box(inside.left, inside.top - 14, inside.left + 70, inside.top)
 
 
-def _binding_column(paper: Format, title: TitleBlock, tell: Tell) -> list[Entity]:
-    """GOST 2.104: fields 19 to 23 in the binding margin, and 26: the number once more, upside down when it is filed."""
-    corner = paper.content.corner - 12
-    ends = np.cumsum([0.0, 25.0, 35.0, 25.0, 25.0, 35.0])
+def _binding_column(paper: Format, title: TitleBlock, sheet: int, tell: Tell) -> list[Entity]:
+    """GOST 2.104: fields 19 to 25 in the binding margin, 24 and 25 of the first sheet alone; and field 26.
+
+    26 is the number once more, upside down when the sheet is filed.
+    """
     captions = (say("Orig. no."), say("Signed, date"), say("Replaces no."), say("Copy no."), say("Signed, date"))
-    lines: list[Ruling] = [(0, 0, 0, 145), (5, 0, 5, 145), *((0, y, 12, y) for y in ends)]
-    entities: list[Entity] = [rules(corner, lines, "frame")]
-    for caption, (low, high) in zip(captions, pairwise(ends), strict=True):
-        # Written from below upwards: the field lies on its side.
-        entities += _turned_texts(fitted_text(tell(caption), (0, 0, high - low, 5), 2.5), corner + 5 + 1j * low, 1j)
+    fields = [*zip((25.0, 35.0, 25.0, 25.0, 35.0), captions, strict=True)]
+    entities = _upright_fields(paper.content.corner - 12, fields, tell)
+    if sheet == 1:
+        upper = complex(paper.content.left - 12, paper.content.top - 120)
+        entities += _upright_fields(upper, [(60.0, say("Reference no.")), (60.0, say("First used in"))], tell)
     box, aside = _number_box(paper), _has_upright_number(paper)
     inner: list[Ruling] = [(0, 0, 14, 0), (0, 0, 0, 70)] if aside else [(0, 0, 70, 0), (70, 0, 70, 14)]
     entities.append(rules(box.corner, inner, "frame"))
     start, turn = (box.corner + 14, 1j) if aside else (box.corner + (70 + 14j), -1 + 0j)
     return entities + _turned_texts(entry(title, "number", (0, 0, 70, 14), 5.0), start, turn)
+
+
+def _upright_fields(corner: complex, fields: Sequence[tuple[float, Caption]], tell: Tell) -> list[Entity]:
+    """Fields of a height [mm] one over another, each with its caption written from below upwards."""
+    ends = np.cumsum([0.0, *(height for height, _ in fields)])
+    high = float(ends[-1])
+    lines: list[Ruling] = [(0, 0, 0, high), (5, 0, 5, high), *((0, y, 12, y) for y in ends)]
+    entities: list[Entity] = [rules(corner, lines, "frame")]
+    for (_, caption), (low, top) in zip(fields, pairwise(ends), strict=True):
+        entities += _turned_texts(fitted_text(tell(caption), (0, 0, top - low, 5), 2.5), corner + 5 + 1j * low, 1j)
+    return entities
 
 
 def _turned_texts(texts: Iterable[Text], start: complex, turn: complex) -> list[Entity]:

@@ -18,8 +18,8 @@ from graphcam.sheets.text_measures import width, wrap
 
 LABEL_MARGIN = 3.0
 """The free margin around the drawing of a view, for labels [mm]."""
-STRIP_COUNT = 12
-"""The number of boxes that cover the outline of a view."""
+STRIP_HEIGHT, MIN_STRIP_COUNT = 16.0, 6
+"""The height of the boxes that cover the outline of a view [mm], and the minimum number of them."""
 TITLE_GAP = 1.5
 """The gap between a title and the lines below it [mm]."""
 BLANK_FIELD = "_____"
@@ -57,7 +57,7 @@ class Panel:
     @cached_property
     def _entities(self) -> list[Entity]:
         entities, writings = expand(self.marks + self.base, Placement(0j, self.factor), self.letters)
-        return [*entities, *(writing.set_at(0) for writing in writings)]
+        return [*entities, *(writing.set_at(writing.close) for writing in writings)]
 
     @cached_property
     def _lines(self) -> tuple[Points, Points]:
@@ -121,9 +121,10 @@ class Panel:
         title = self.title_box.grown(-LABEL_MARGIN)
         hull = outermost(np.concatenate([self.points, title.corners]))
         # Densely, so that every strip has a point on either side.
-        shares = np.linspace(0.0, 1.0, 10 * STRIP_COUNT)[:, None]
+        count = max(MIN_STRIP_COUNT, round(self.box.height / STRIP_HEIGHT))
+        shares = np.linspace(0.0, 1.0, 10 * count)[:, None]
         points = (hull + shares * (np.roll(hull, -1) - hull)).ravel()
-        levels = np.linspace(self.box.bottom + LABEL_MARGIN, self.box.top - LABEL_MARGIN, STRIP_COUNT + 1)
+        levels = np.linspace(self.box.bottom + LABEL_MARGIN, self.box.top - LABEL_MARGIN, count + 1)
         # The hull is that of some directions: what a long drawing has in its middle may stick out of it.
         of_hull, drawn = (_in_bands(each, levels) for each in (points, self.points))
         both = ([*(box.grown(LABEL_MARGIN) for box in hull), *own] for hull, own in zip(of_hull, drawn, strict=True))

@@ -30,7 +30,7 @@ from graphcam.solving.spring_diagrams import (
     with_unit,
     without_rounding,
 )
-from graphcam.solving.turn_diagrams import at_side, plain_place, turn_diagrams
+from graphcam.solving.turn_diagrams import at_angle, at_side, plain_place, turn_diagrams
 from graphcam.words import Words, and_list, sequence
 
 Row = tuple[Words, Words, Words]
@@ -225,7 +225,7 @@ class SpringDesign:
             (say("stiffness c"), say("{stiffness:g} {unit}", stiffness=load.stiffness, unit=unit(stiffness)), ""),
         ]
         if self.friction:
-            rows.append((say("friction at the cam μ"), say("{friction:g}", friction=self.friction), ""))
+            rows.append((say("friction at the cam f₁"), say("{friction:g}", friction=self.friction), ""))
         if load.acceleration:
             value = say("{acceleration:g} rad/s²", acceleration=load.acceleration)
             rows.append((say("angular acceleration ε"), value, ""))
@@ -246,7 +246,7 @@ class SpringDesign:
         lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
-            (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
+            (say("minimum preload"), with_unit(self.needed, preload), at_angle(self.least.phi)),
             (contact, with_unit(without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),

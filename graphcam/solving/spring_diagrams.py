@@ -62,15 +62,15 @@ IDLE_CAPTION = say(
 )
 TRANSMISSION_CAPTIONS = {
     "stem": say(
-        "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the "
+        "τ = cos α − f₁ sin α, with f₁ = {friction:g} at the cam, is the part of the normal force that moves the "
         "follower, at {mu:g}/mm. Where it falls to zero the follower jams."
     ),
     "arm": say(
-        "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, "
+        "τ, the lever of the normal force with its friction f₁ = {friction:g} about the pivot, in lengths of the arm, "
         "is the part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
     ),
     "swinging face": say(
-        "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in distances of the "
+        "τ, the lever of the normal force with its friction f₁ = {friction:g} about the pivot, in distances of the "
         "contact from there, is the part of it that moves the face, at {mu:g}/mm. Where it falls to zero the face jams."
     ),
 }
@@ -79,11 +79,11 @@ TRANSMISSION_CAPTIONS = {
 
 NORMAL_FORMULAS = {
     ("stem", False): "ξ/cos α",
-    ("stem", True): "ξ/(cos α − μ sin α)",
+    ("stem", True): "ξ/(cos α − f₁ sin α)",
     ("arm", False): "ξ/(l cos α)",
-    ("arm", True): "ξ/(l cos α − σμ(l sin α − r))",
+    ("arm", True): "ξ/(l cos α − σf₁(l sin α − r))",
     ("swinging face", False): "ξ/q",
-    ("swinging face", True): "ξ/(q + σμf)",
+    ("swinging face", True): "ξ/(q + σf₁f)",
 }
 """The normal force by what it moves, and whether there is friction at the cam."""
 

@@ -132,11 +132,16 @@ def diagram_step(diagram: TurnDiagram) -> Step:
     return Step(diagram.title, (Part(said),), view, tuple(marks), given=axes, why=diagram.why)
 
 
+def at_angle(phi: float) -> Caption:
+    """The cam angle [rad] at which a value was found, in degrees as a drawing shows them."""
+    return say("at {phi}", phi=say("{angle:.1f}°", angle=math.degrees(phi)))
+
+
 def at_side(found: ValueAt, motion: Motion) -> Caption:
     """The cam angle at which a value stands, and the side of it where the motion has a break."""
     phi = degrees(found.phi)
     if np.abs(np.append(motion.breaks, FULL_TURN) - found.phi).min() > BREAK_DISTANCE:
-        return say("at {phi}", phi=phi)
+        return at_angle(found.phi)
     return say("just before {phi}", phi=phi) if found.side == "left" else say("just after {phi}", phi=phi)
 
 

@@ -75,7 +75,7 @@ class SpringTable:
     stiffness: Annotated[Stiffness, say("Stiffness c"), About(3.0)]
     preload: Annotated[Preload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
     acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
-    friction: Annotated[Friction, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    friction: Annotated[Friction, say("Friction at the cam f₁"), Fixed(0.0, 0.5, 0.01)] = 0.0
     load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
     damping: Annotated[Damping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = False
@@ -136,7 +136,7 @@ class ArmSpringTable:
     stiffness: Annotated[ArmStiffness, say("Stiffness c"), About(3.0)]
     preload: Annotated[ArmPreload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
     acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
-    friction: Annotated[Friction, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    friction: Annotated[Friction, say("Friction at the cam f₁"), Fixed(0.0, 0.5, 0.01)] = 0.0
     load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
     at: ArmSpringPlace | None = None
     damping: Annotated[ArmDamping, say("Damping d"), About(100.0, from_zero=True)] = 0.0

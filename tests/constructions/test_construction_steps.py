@@ -172,7 +172,7 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
                 "The cam turns clockwise",
                 "follower the other way, anticlockwise",
             ),
-            *("6.67° in φ₁, 5° in φ₃", "station 4 at 26.67°", "80°, 45°, 60°, 175°"),
+            *("6.67° in φ₁, 5° in φ₃", "station 4 at 26.67°"),
             *("0.6 mm × 1 = 0.6 mm here", "station 4: 11.11 mm × 0.6 = 6.67 mm", "In the dwell φ₂: compass 73.5 mm"),
         ],
         "curvature": [
@@ -187,6 +187,7 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
         "roller": ["0.4 r₀ = 17.60 mm"],
         "working_profile": [
             *("Round 17.60 mm down to 17 mm", "Set the compass to 17.0 mm (r = 17 mm at 1:1)"),
+            "80°, 45°, 60°, 175°",
             *("29.7° (29.7° in the diagram)", "I 57.3 mm from A, 49.3° (49.3° in the diagram)"),
         ],
     }

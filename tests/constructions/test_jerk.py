@@ -245,7 +245,7 @@ def test_the_arc_of_the_lower_dwell_has_the_dwell_s_angle(rotation, dwell):
     motion = motion_of((20, 0.5 * rest, "3-4-5"), (-20, 0.5 * rest, "3-4-5"))
     chain = Chain(board_of(motion, rotation=rotation, prime_radius=60.0, roller_radius=10.0))
     assert_allclose(np.degrees(chain["working_profile"].value("low_dwells")), [dwell], rtol=1e-12)
-    last = chain["working_profile"].steps()[-1]
+    last = chain["working_profile"].steps()[-2]
     (mark,) = [mark for mark in last.marks if isinstance(mark, AngleMark)]
     assert math.degrees(mark.end - mark.start) == pytest.approx(dwell)
     assert str(mark.text) == f"δ₃ = {dwell:.1f}°"

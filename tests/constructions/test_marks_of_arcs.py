@@ -638,7 +638,7 @@ def worked_row(step: Step) -> str:
 @PERFECT
 def test_the_accelerations_of_all_stations_lie_on_their_rays(name):
     """In the plane of the drawing itself: CN is CK²/CB, N lies on the rod, M square to it on the ray."""
-    (*_, step), mu = steps(name, "arc_roller"), per_mm(name)
+    (*_, step, _), mu = steps(name, "arc_roller"), per_mm(name)
     stations, velocities = steps(name, "arc_roller")[2], steps(name, "arc_roller")[5]
     b, k = the(all_of(stations, Dots)[0].points), plotted(velocities)
     times = mu * scale_of_view(step)
@@ -723,7 +723,7 @@ def test_the_accelerations_at_the_joints_are_those_on_either_side(name):
         exact = motion.at(np.array([arc]), np.array([float(u)]))[1][2]
         assert float(rolled.value(f"a_{end}")) == pytest.approx(float(exact[0]))
     read = [set(step.reads) for step in steps(name, "arc_roller")]
-    assert read[-2:] == [{"v", "alpha"}, {"a", *(f"a_{end}" for end in ends)}]
+    assert read[-3:-1] == [{"v", "alpha"}, {"a", *(f"a_{end}" for end in ends)}]
     assert set[str]().union(*read) | {"phi", "edges"} == set(rolled.readings)
     radii = {"prime_radius": motion.prime_radius, "lift": motion.at(np.array([2]), np.array([1.0]))[1][0][0]}
     radii |= {"roller_radius": radius_of_roller(name) * per_mm(name), "rise": motion.edges[3], "phi_G": motion.edges[1]}
@@ -815,7 +815,7 @@ def test_the_dimensions_of_the_phases_measure_what_they_say(name):
 @DIAGRAMS
 def test_every_ordinate_is_told_with_what_it_is_carried_from_and_its_place(name, k, key):
     """From the drawing of the roller: OM, OK or the way out of the prime circle, or the angle between rod and ray."""
-    step, (_, _, stations, *_, velocities, _) = steps(name, "arc_diagrams")[k], steps(name, "arc_roller")
+    step, (_, _, stations, *_, velocities, _, _) = steps(name, "arc_diagrams")[k], steps(name, "arc_roller")
     mu, (prime,) = laid_off_at(step), all_of(steps(name, "arc_roller")[0], Circle)
     b, cut, dots = the(all_of(stations, Dots)[0].points), plotted(velocities), the(all_of(step, Dots)[0].points)
     source = {

@@ -817,7 +817,7 @@ def test_the_arcs_of_the_arm_cross_the_prime_circle_on_the_left(name):
     step, (pivots, starts, pitch) = titled(steps, "Arcs of the arm"), inverted_positions(inverted)
     arm = inverted.givens.arm / inverted.givens.mu_l.per_mm
     assert_allclose(marks(step, Dots)[0].points, starts, atol=EXACT)
-    for n, (arc, part, text) in enumerate(zip(marks(step, Arc), step.places[:-1], names_of(inverted), strict=True)):
+    for n, (arc, part, text) in enumerate(zip(marks(step, Arc), step.places, names_of(inverted), strict=True)):
         assert (arc.centre, arc.radius) == (pytest.approx(pivots[n]), pytest.approx(arm))
         assert on_arc(arc, starts[n])
         assert on_arc(arc, pitch[n])
@@ -828,16 +828,19 @@ def test_the_arcs_of_the_arm_cross_the_prime_circle_on_the_left(name):
 
 
 @EVERY
-def test_the_angles_of_the_phases_are_marked_when_the_start_of_the_lift_is_found(name):
-    inverted, steps = steps_of(name, "inversion")
-    step, (_, starts, _) = titled(steps, "Arcs of the arm"), inverted_positions(inverted)
+def test_the_angles_of_the_phases_are_marked_last_from_the_first_place_of_the_pivot(name):
+    (inverted, _), (profile, steps) = steps_of(name, "inversion"), steps_of(name, "working_profile")
+    step, (pivots, _, pitch) = steps[-1], inverted_positions(inverted)
+    roller = profile.givens.roller_radius / inverted.givens.mu_l.per_mm
     sigma, phases = sense(inverted), inverted.givens.integrated.givens.motion.phases
-    begin = cmath.phase(starts[0]) + sigma * inverted.givens.integrated.givens.stations.phi[0]
+    begin = cmath.phase(pivots[0]) + sigma * inverted.givens.integrated.givens.stations.phi[0]
     for arc, phase in zip(marks(step, AngleMark), phases, strict=True):
         assert arc.end - arc.start == pytest.approx(phase.angle)
         assert cmath.exp(1j * (arc.end if sigma > 0 else arc.start)) == pytest.approx(cmath.exp(1j * begin))
         assert str(arc.text).endswith(f" = {math.degrees(phase.angle):.6g}°")
         begin -= sigma * phase.angle
+        # Outside the circle of the pivots, and the roller where that reaches farther.
+        assert abs(pivots[0]) + 4.99 < arc.radius < max(abs(pivots[0]), np.nanmax(np.abs(pitch)) + roller) + 5.01
     angles = ", ".join(f"{math.degrees(phase.angle):.6g}°" for phase in phases)
     assert angles in str(step.parts[-1].caption)
     assert str(step.parts[-1].caption) in str(step.caption)

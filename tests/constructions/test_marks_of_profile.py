@@ -19,7 +19,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.acts import Kind
 from graphcam.drafting.curve import faired_line
 from graphcam.drafting.ink import Construction, Step
-from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dots, Label, Line, Role, Segments
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import GOST_2_302, Paper
 from graphcam.given.roller_rule import roller_rule
@@ -79,13 +79,11 @@ def test_the_circles_have_the_adopted_radii_and_their_arrows_end_on_them(name, h
     sizes = [chain.prime_radius, *([abs(chain.place)] if chain.place else [])]
     circles, arrows = only(step, Circle), only(step, Arrow)
     assert [circle.radius * mu for circle in circles] == pytest.approx(sizes, abs=close(hand, mu))
-    _, centre, *radii = only(step, Label)
+    _, centre, label = only(step, Label)
     assert (str(centre.text), centre.at) == ("A", 0)
-    assert [str(label.text) for label in radii] == [
-        f"{symbol} = {size:g}" for symbol, size in zip(("r₀", "e"), sizes, strict=False)
-    ]
-    for circle, arrow, label in zip(circles, arrows, radii, strict=True):
-        assert abs(circle.centre) < close(hand)
+    assert str(label.text) == f"r₀ = {chain.prime_radius:g}"
+    assert all(abs(circle.centre) < close(hand) for circle in circles)
+    for circle, arrow in zip(circles[:1], arrows, strict=True):
         assert abs(arrow.start - circle.centre) < 1e-9
         assert abs(arrow.end - arrow.start) == pytest.approx(circle.radius, abs=1e-9)
         assert label.at == pytest.approx(arrow.start + 0.6 * (arrow.end - arrow.start))
@@ -97,6 +95,20 @@ def test_the_circles_have_the_adopted_radii_and_their_arrows_end_on_them(name, h
         assert str(part.caption) == said
     assert (f"With e = {chain.place:g} mm" in str(step.caption)) == (len(sizes) == 2) == bool(chain.place)
     assert len(step.parts) == len(sizes) + 1
+
+
+@every
+def test_the_offset_is_the_distance_of_the_upright_axes(name, hand):
+    chain, step = chain_of(name, hand), steps(name, hand, "inversion")[0]
+    lengths = only(step, Dimension)
+    uprights = [line.points for line in only(step, Line, Role.AXIS) if not np.ptp(line.points.real)]
+    assert len(lengths) == bool(chain.place)
+    for length in lengths:
+        assert str(length.text) == f"e = {abs(chain.place):g}"
+        ends = sorted((length.start.real, length.end.real))
+        assert ends == pytest.approx(sorted(points[0].real for points in uprights))
+        for points in uprights:
+            assert points.imag.min() < length.start.imag == length.end.imag < points.imag.max()
 
 
 @every
@@ -148,7 +160,7 @@ def test_every_position_says_its_angle_the_sense_against_the_rotation_and_where_
     against = "clockwise" if sigma(chain) > 0 else "anticlockwise"
     origin = "line 0" if not chain.place else f"the {'left' if chain.place < 0 else 'right'} end of the offset circle"
     angles = [f"{round(math.degrees(phi), 2):g}°" for phi in chain.board.stations.phi]
-    turned, phases = step.parts
+    (turned,), (phases,) = step.parts, steps(name, hand, "working_profile")[-1].parts
     for k, (row, at, angle) in enumerate(zip(turned.rows, names_of(chain), angles, strict=True)):
         assert str(row.caption) == f"Station {at}: {angle}."
         rays, *_, motion = row.draws
@@ -166,7 +178,6 @@ def test_every_position_says_its_angle_the_sense_against_the_rotation_and_where_
     listed = ", ".join(f"{math.degrees(phase.angle):.6g}°" for phase in chain.board.motion.phases)
     assert listed in str(phases.caption)
     assert against in str(phases.caption)
-    assert listed in str(step.caption)
 
 
 @every
@@ -212,12 +223,12 @@ def test_the_displacement_lies_between_the_prime_circle_and_the_end(name, hand):
 
 @every
 def test_the_phase_angles_follow_one_another_from_the_start_against_the_rotation(name, hand):
-    chain, step = chain_of(name, hand), steps(name, hand, "inversion")[1]
+    chain, step = chain_of(name, hand), steps(name, hand, "working_profile")[-1]
     marks, (rays,) = only(step, AngleMark), only(step, Segments, Role.AXIS)
     pitch = only(steps(name, hand, "inversion")[2], Dots)[0].points
     e = chain.place / chain.prime_radius
     begin = math.atan2(math.sqrt(1 - e * e), e)
-    total = 0.0
+    total, roller = 0.0, chain.roller_radius / chain.profile_scale.per_mm
     for k, (mark, phase) in enumerate(zip(marks, chain.board.motion.phases, strict=True)):
         low, high = mark.start, mark.end
         assert high - low == pytest.approx(phase.angle)
@@ -226,8 +237,13 @@ def test_the_phase_angles_follow_one_another_from_the_start_against_the_rotation
         assert off == pytest.approx(0, abs=close(hand, 0.1))
         assert str(mark.text).endswith(f"= {math.degrees(phase.angle):.6g}°")
         assert abs(mark.centre) == abs(rays.starts[k]) == 0
-        assert mark.radius == pytest.approx(float(np.abs(pitch).max()) + 9)
-        assert abs(rays.ends[k] - cmath.rect(mark.radius + 4.5, from_)) < 1e-9
+        # The arc lies outside the pitch points and the roller's circles between its ends, and no farther than need be.
+        turned = pitch * cmath.exp(-0.5j * (low + high))
+        inside = np.abs(np.angle(turned)) <= phase.angle / 2 + 1e-6
+        assert mark.radius >= np.abs(pitch[inside]).max(initial=0) + roller + 4.99
+        assert mark.radius <= np.abs(pitch).max() + roller + 5.01
+        beside = marks[k - 1].radius
+        assert abs(rays.ends[k] - cmath.rect(max(mark.radius, beside) + 2, from_)) < 1e-9
         total += phase.angle
     assert total == pytest.approx(math.tau)
 

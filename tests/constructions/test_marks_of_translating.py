@@ -420,7 +420,7 @@ def test_the_cam_centre_is_the_nearest_permitted_place_or_the_highest_at_the_off
         return
     across, below = others
     assert (across.start, across.end, across.aside) == (1j * a.imag, a, -8)
-    assert str(across.text) == (f"e = {-a.real * mu:.2f}" if offset is None else f"e = {offset:g}")
+    assert str(across.text) == (f"e = {abs(a.real) * mu:.2f}" if offset is None else f"e = {abs(offset):g}")
     assert (below.start, below.end) == (0, 1j * a.imag)
     # It stands on the other side of the line of motion than A: to the left of a line that goes down is its right.
     assert below.aside == -14 * np.sign(a.real)

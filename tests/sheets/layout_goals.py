@@ -2,7 +2,7 @@
 
 ``PYTHONPATH=tests:tests/comparison python tests/sheets/layout_goals.py TASK.toml ...`` draws the sheets of tasks and
 prints what each misses; without a task it takes those of ``tests/sheets/coursework`` and the built-in ones, with
-``--random N`` also N tasks drawn at random.
+``--random N`` also N tasks drawn at random, from the number that ``--first`` tells on.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from random_sheets import solved
 
 import graphcam as gc
 from graphcam.constructions.axes import broken_axis, part_names
-from graphcam.drafting.marks import Role
+from graphcam.drafting.marks import Points, Role
 from graphcam.drafting.scale import Scale
 from graphcam.given.motion import FULL_TURN
 from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.fewer_sheets import larger_paper
 from graphcam.report.sheet_contents import Contents
-from graphcam.sheets.model import Drawing, Entity, Page, Strokes, Text
-from graphcam.sheets.sampling import box_around, box_of, corners, linework, sampled
+from graphcam.sheets.model import Box, Drawing, Entity, Page, Strokes, Text
+from graphcam.sheets.sampling import box_around, corners, linework, outermost, sampled
 from graphcam.sheets.styles import BOLD
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.diagram_sizes import MIN_POLE, narrowest_part
@@ -53,7 +53,7 @@ TANGLE_SIZE = 20.0
 MIN_CROSSING_LEADERS = 3
 """The number of leaders that make a tangle."""
 INSIDE = 0.5
-"""A label is in another view if its box is so deep in it [mm]."""
+"""A label is in another view if its box is so deep in the convex outline of its lines [mm]."""
 
 
 @dataclass(frozen=True)
@@ -190,15 +190,30 @@ def _trespassing(contents: Contents, drawing: Drawing) -> Iterator[tuple[str, st
     for page in drawing.pages:
         views = _views(contents, page)
         # A leader may lead out of its view: where it ends a label does.
-        boxes = {
-            name: box.grown(-INSIDE)
+        drawn = {
+            name: linework(e for e in _without_leaders(entities) if not isinstance(e, Text))
             for name, entities in views.items()
-            if (box := box_of(e for e in _without_leaders(entities) if not isinstance(e, Text)))
         }
+        bands = {name: list(_bands(lines)) for name, lines in drawn.items()}
         for name, entities in views.items():
             for text in (e for e in entities if isinstance(e, Text) and e.text):
-                own = box_around(corners(text))
-                yield from ((text.text, other) for other, box in boxes.items() if other != name and box.meets(own))
+                own, others = box_around(corners(text)), (other for other in bands if other != name)
+                yield from ((text.text, other) for other in others if any(box.meets(own) for box in bands[other]))
+
+
+def _bands(lines: tuple[Points, Points]) -> Iterator[Box]:
+    """Level bands of a view's convex outline, without their edge: beyond it the box of the view is empty."""
+    points = sampled(*lines, 1.0)
+    if not points.size:
+        return
+    hull = outermost(points)
+    steps = np.linspace(0.0, 1.0, 200)[:, None]
+    outline = (hull + steps * (np.roll(hull, -1) - hull)).ravel()
+    low, high = float(points.imag.min()), float(points.imag.max())
+    for start, end in pairwise(np.linspace(low, high, max(2, math.ceil((high - low) / CELL))).tolist()):
+        band = outline[(outline.imag >= start) & (outline.imag <= end)]
+        if band.size and np.ptp(band.real) > 2 * INSIDE:
+            yield Box(band.real.min() + INSIDE, start + INSIDE, band.real.max() - INSIDE, end - INSIDE)
 
 
 def _without_leaders(entities: Sequence[Entity]) -> list[Entity]:
@@ -217,7 +232,7 @@ def _leaders(entities: Iterable[Entity]) -> list[Strokes]:
 
 def _tangles(page: Page) -> Iterator[str]:
     """Places where three leaders or more cross one another."""
-    ends = [(complex(line.starts[0]), complex(line.ends[-1])) for g in page.groups for line in _leaders(g.entities)]
+    ends = [(complex(line.starts[0]), complex(line.ends[0])) for g in page.groups for line in _leaders(g.entities)]
     crossings = [
         (at, pair) for pair in combinations(range(len(ends)), 2) if (at := _crossing(*ends[pair[0]], *ends[pair[1]]))
     ]
@@ -279,7 +294,7 @@ def _named(text: str) -> Iterator[str]:
             yield from (f"{k}{ends[0][2]}" for k in range(numbers[0], numbers[-1] + 1) if ends[0])
 
 
-def solutions(files: Sequence[str], random: int) -> Iterator[tuple[str, AnySolution]]:
+def solutions(files: Sequence[str], random: int, first: int = 0) -> Iterator[tuple[str, AnySolution]]:
     """The solutions of task files, or of the coursework and the built-in tasks; and of random tasks."""
     for file in files or sorted(map(str, Path(__file__).with_name("coursework").glob("*.toml"))):
         yield Path(file).stem, gc.solve(gc.load_task(file))
@@ -287,7 +302,7 @@ def solutions(files: Sequence[str], random: int) -> Iterator[tuple[str, AnySolut
         for name in BUILTIN_TASK_NAMES:
             yield name, gc.solve(builtin_task(name))
         yield "arcs", gc.solve(builtin_arcs_task())
-    yield from ((f"random {k}", solved(k)) for k in range(random))
+    yield from ((f"random {k}", solved(k)) for k in range(first, first + random))
 
 
 def main() -> int:
@@ -295,11 +310,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tasks", nargs="*")
     parser.add_argument("--random", type=int, default=0)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--all", action="store_true", help="tell all that is missed, not the first of each")
     asked = parser.parse_args()
     total: dict[str, int] = {}
     count = pages = rays = unnumbered = 0
-    for name, solution in solutions(asked.tasks, asked.random):
+    for name, solution in solutions(asked.tasks, asked.random, asked.first):
         found = measured(solution)
         count, pages, rays = count + 1, pages + len(found.empty), rays + found.rays
         unnumbered += len(found.unnumbered)

@@ -237,8 +237,12 @@ def test_no_ruling_of_a_frame_stands_over(paper):
 
 
 @pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "gost"], ids=repr)
-def test_the_binding_margin_has_five_fields_of_the_standard_lengths(paper):
-    entities = [*frame(paper, NAMED, 1, 1).entities]
+def test_the_binding_margin_has_five_fields_of_the_standard_lengths_and_two_more_on_the_first_sheet(paper):
+    first = [t for t in texts_of([*frame(paper, NAMED, 1, 2).entities]) if t.at.real < 20][5:]
+    assert [t.text for t in first] == ["Reference no.", "First used in"]
+    for text, low in zip(first, (120, 60), strict=True):
+        assert corners(text).imag.mean() == pytest.approx(paper.content.top - low + 30)
+    entities = [*frame(paper, NAMED, 2, 2).entities]
     left, bottom = paper.content.left - 12, paper.content.bottom
     ends = [bottom, bottom + 25, bottom + 60, bottom + 85, bottom + 110, bottom + 145]
     assert paper.content.left == 20

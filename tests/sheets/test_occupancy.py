@@ -123,18 +123,22 @@ def test_a_text_keeps_a_margin_from_a_bold_line(gap, free, side):
     assert chosen(writing(near, far, price=[0.0, 5.0]), line) == pytest.approx(near if free else far)
 
 
-def test_a_leader_ends_at_the_nearest_place_of_its_text():
+def test_a_leader_ends_at_the_nearer_end_of_a_shelf_along_its_text():
     wide, high = np.ptp(corners(Text(0j, "HHH", 3.5)).real), np.ptp(corners(Text(0j, "HHH", 3.5)).imag)
-    for centre, end in (
-        (35 + 45j, 35 + 45j - 1j * (high / 2 + 0.4)),
-        (50 + 35j, 50 + 35j - (wide / 2 + 0.4)),
-        (50 + 45j, 50 + 45j - (wide / 2 + 0.4) - 1j * (high / 2 + 0.4)),
-        (20 + 24j, 20 + 24j + (wide / 2 + 0.4) + 1j * (high / 2 + 0.4)),
+    half = wide / 2 + 0.6, high / 2 + 0.6
+    for centre, (across, up) in (
+        (36 + 45j, (-1, -1)),
+        (50 + 35j, (-1, -1)),
+        (50 + 45j, (-1, -1)),
+        (20 + 24j, (1, 1)),
+        (20 + 35j, (1, -1)),
     ):
+        end, other = centre + complex(across * half[0], up * half[1]), centre + complex(-across * half[0], up * half[1])
         ((text, leader),) = place([writing(centre, price=[1.0], anchor=35 + 35j)], [], FRAME)
         assert corners(text).mean() == pytest.approx(centre)
-        assert (leader.starts.tolist(), leader.role) == ([35 + 35j], Role.DIMENSION)
-        assert leader.ends[0] == pytest.approx(end)
+        assert leader.role == Role.DIMENSION
+        assert leader.starts == pytest.approx(np.array([35 + 35j, end]))
+        assert leader.ends == pytest.approx(np.array([end, other]))
     ((text,),) = place([writing(35 + 45j, price=[1.0])], [], FRAME)
     assert isinstance(text, Text)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -72,7 +73,8 @@ def check_pages(solution: AnySolution, pages: tuple[Page, ...]) -> list[float]:
     return [used(sheet, page, points_of_views(solution, page, labels=True)) for page in pages]
 
 
-@pytest.mark.parametrize("name", ["coursework", "flat"])
-def test_displacements_are_carried_level_across_to_the_combined_diagram(name):
-    (page,) = drawing_of(contents_of(gc.solve(builtin_task(name)))).pages
+@pytest.mark.parametrize(("name", "scale"), [("coursework", "1:1"), ("flat", None)])
+def test_displacements_can_be_carried_level_across_where_the_profile_leaves_room(name, scale):
+    task = builtin_task(name)
+    (page,) = drawing_of(contents_of(gc.solve(replace(task, drawing=replace(task.drawing, profile_scale=scale))))).pages
     assert page.origins["combined"].imag == pytest.approx(page.origins["displacement"].imag)

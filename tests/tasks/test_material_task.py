@@ -96,7 +96,7 @@ def test_the_diagram_and_the_note_say_what_is_permitted(tmp_path, permitted, mar
     note = note_of(solution)
     assert words in note
     assert "= 1148.8\\ \\text{MPa}" in note
-    assert "The pressure has its maximum at 138.001°, where $N = 6410.2$ N." in note
+    assert "The pressure has its maximum at 138.0°, where $N = 6410.2$ N." in note
     told = texts_of(solution)
     assert "1149 MPa" in told
     assert (f"{permitted} MPa" in told) == (permitted is not None)
