@@ -14,7 +14,14 @@ from typing import Any
 from graphcam.files import whole_file, whole_folder
 from graphcam.language import ENGLISH
 from graphcam.studio.engine import answer
-from graphcam.studio.pyodide_parts import STANDARD_LIBRARY_FILE, engine_archive, library_archive, pyodide_parts
+from graphcam.studio.pyodide_parts import (
+    LOCK_FILE,
+    STANDARD_LIBRARY_FILE,
+    engine_archive,
+    library_archive,
+    lock_without_packages,
+    pyodide_parts,
+)
 from graphcam.studio.studio_page import page, script_names
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.tasks.arcs_task import ArcsTask
@@ -32,22 +39,24 @@ LICENCE_NOTE = """\
 graphcam: MIT.  Its lettering, osifont: LGPL-3.0-only or GPL-3.0-only with the font exception.
 Pyodide: Mozilla Public License 2.0, https://github.com/pyodide/pyodide
 CPython: Python Software Foundation License 2.0, https://github.com/python/cpython
-NumPy: BSD 3-Clause; lazy_loader: BSD 3-Clause; tomli_w: MIT; typing_extensions: PSF 2.0.
+NumPy: BSD 3-Clause; lazy_loader: BSD 3-Clause; tomli_w: MIT.
 Their texts stand in the archives numpy.zip and graphcam.zip.
 """
 
 
-def engine_parts(pyodide: Path) -> dict[str, bytes]:
+def engine_parts(pyodide: Path, language: str = ENGLISH.name) -> dict[str, bytes]:
     """Everything that the worker is made of, by its names, each compressed.
 
     pyodide : the folder with Pyodide and NumPy
+    language : of the page
 
     Raises
     ------
     TaskError : a file of them is not there, or not known
     """
-    parts = {**pyodide_parts(pyodide), ENGINE_FILE: engine_archive()}
+    parts = {**pyodide_parts(pyodide), ENGINE_FILE: engine_archive(language)}
     parts[STANDARD_LIBRARY_FILE] = library_archive(parts[STANDARD_LIBRARY_FILE])
+    parts[LOCK_FILE] = lock_without_packages(parts[LOCK_FILE])
     # Without the time: the same parts make the same bytes.
     return {name: gzip.compress(part, 9, mtime=0) for name, part in parts.items()}
 
@@ -105,7 +114,7 @@ def write_one_file(path: Path, pyodide: Path, task: Task | ArcsTask, language: s
     TaskError : a part of Pyodide is not there, or not known
     OutputError : the file cannot be written
     """
-    parts = engine_parts(pyodide)
+    parts = engine_parts(pyodide, language)
     text = worker_page(task, language, FILE_POLICY, own_script("start_engine.js"), {"engine": own_script("worker.js")})
     carried = "\n".join(
         f'<script type="text/plain" data-part="{name}">{base64.b64encode(part).decode()}</script>'
@@ -137,7 +146,7 @@ def write_site(folder: Path, pyodide: Path, task: Task | ArcsTask, language: str
     TaskError : a part of Pyodide is not there, or not known
     OutputError : the folder cannot be written
     """
-    beside = {f"{name}.gz": part for name, part in engine_parts(pyodide).items()}
+    beside = {f"{name}.gz": part for name, part in engine_parts(pyodide, language).items()}
     beside["worker.js"] = own_script("worker.js").encode()
     build = _build(beside)
     named = {f"{build}-{name}": content for name, content in beside.items()}

@@ -83,6 +83,7 @@ function askingOf(page) {
     if (request.told) page.showAll();
     else page.showAnswer();
     if (request.values && !request.told) page.showValueTables();
+    page.answered?.();
     askAgain(request.views);
   }
 
