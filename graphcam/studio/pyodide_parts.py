@@ -22,7 +22,6 @@ from importlib.resources import files
 from pathlib import Path, PurePosixPath
 
 from graphcam.errors import MissingFileError, TaskError
-from graphcam.language import ENGLISH
 from graphcam.words import bare_caption, or_list, say
 
 LOADER_FILE, GLUE_FILE, BINARY_FILE = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
@@ -189,26 +188,22 @@ def _of_conda(content: bytes) -> Iterator[tuple[str, bytes]]:
                 yield path, file.read()
 
 
-def engine_archive(language: str = ENGLISH.name) -> bytes:
-    """The engine of the studio, and what it imports but NumPy.
-
-    language : of the page, whose catalog it has
-    """
-    contents = dict(_of_graphcam(language))
+def engine_archive() -> bytes:
+    """The engine of the studio, and what it imports but NumPy."""
+    contents = dict(_of_graphcam())
     for library in ENGINE_LIBRARIES:
         contents |= _of_library(library)
     return stored_zip(contents)
 
 
-def _of_graphcam(language: str) -> Iterator[tuple[str, bytes]]:
+def _of_graphcam() -> Iterator[tuple[str, bytes]]:
     """The files of graphcam that the engine reads."""
     package = Path(str(files("graphcam")))
     for path in package.rglob("*"):
         inside = path.relative_to(package)
         if inside.parts[0] in ROOMS_ABOVE or path.name in UNREAD_FILES:
             continue
-        is_spoken = path.suffix != ".po" or path.stem == language
-        if path.suffix in KEPT_ENDINGS and path.is_file() and is_spoken:
+        if path.suffix in KEPT_ENDINGS and path.is_file():
             content = path.read_bytes()
             yield f"graphcam/{inside.as_posix()}", without_words(content) if path.suffix == ".py" else content
 

@@ -24,9 +24,9 @@ print(*sorted({name.partition(".")[0] for name in sys.modules}))
 """
 
 
-def run_alone(folder: Path, code: str, said: str = "", language: str = "en") -> list[str]:
+def run_alone(folder: Path, code: str, said: str = "") -> list[str]:
     """The lines that a program writes which finds no library but those."""
-    zipfile.ZipFile(io.BytesIO(engine_archive(language))).extractall(folder)
+    zipfile.ZipFile(io.BytesIO(engine_archive())).extractall(folder)
     for beside in Path(np.__file__).parents[1].glob("numpy*"):
         if not beside.name.endswith(".dist-info"):
             (folder / beside.name).symlink_to(beside)
@@ -54,7 +54,7 @@ def timeless(answered: dict) -> dict:
 @pytest.mark.parametrize("language", ["en", "ru"])
 def test_the_engine_alone_answers_as_among_all_libraries(language, tmp_path):
     requests = [whole(name, language) for name in BUILT_IN]
-    told, loaded = run_alone(tmp_path, ALONE, json.dumps(requests), language)
+    told, loaded = run_alone(tmp_path, ALONE, json.dumps(requests))
     answers = json.loads(told)
     assert [timeless(each) for each in answers] == [timeless(answer(request)) for request in requests]
     assert all(each["ok"] for each in answers)
