@@ -22,7 +22,7 @@ function askingOf(page) {
   }
 
   // Letters grow with the stage: on a phone they can just be read, on a projector from afar [pixels].
-  const letterHeight = ({ at, letters }) => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / letters, at("canvas").clientHeight / 50)));
+  const letterHeight = ({ at, letters }) => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / letters, at("canvas").clientHeight / 36)));
 
   // Several views in one pane stand there without their construction.
   function viewsAsked(aim = {}) {

@@ -26,7 +26,7 @@
     return { at: own, stage: stageOf(own), gallery: galleryOf(), names, ...more };
   };
   const panes = [
-    paneOf("", (main = page.view()) => [main], { usual: [190, 180], letters: 60 }),
+    paneOf("", (main = page.view()) => [main], { usual: [190, 180], letters: 44 }),
     paneOf("-beside", (main) => page.beside(main), { usual: [390, 520], letters: 40 }),
   ];
   const page = {
