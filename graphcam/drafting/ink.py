@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from typing_extensions import TypeVar
 
 from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
@@ -21,8 +20,18 @@ from graphcam.showing import MAX_LINES, MAX_WIDTH, Plottable, higher_function, v
 from graphcam.words import Caption as Caption, Tell, Words as Words, say as say, sequence
 
 if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
     from graphcam.drafting.pencil import Pencil
     from graphcam.showing import Axes, Figure
+
+    G = TypeVar("G", covariant=True, default=Any)
+    """What lies on the board of a construction."""
+else:
+    from typing import TypeVar
+
+    # Its default is for type checkers, and before Python 3.13 there is none.
+    G = TypeVar("G", covariant=True)
 
 
 @dataclass(frozen=True)
@@ -223,10 +232,6 @@ def reading(paper: ArrayLike, scale: float | NDArray[np.floating[Any]], unit: st
     30.0
     """
     return Reading(np.asarray(paper, dtype=np.float64), scale, unit)
-
-
-G = TypeVar("G", covariant=True, default=Any)
-"""What lies on the board of a construction."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -97,8 +97,20 @@ def hashed(name: str, number: int, salt: bytes, iterations: int = ITERATIONS) ->
     >>> hashed("r0", 53, b"salt", 1)
     '5Cs5zhFq'
     """
-    made = hashlib.pbkdf2_hmac("sha256", f"{name}:{number}".encode(), salt, iterations, HASH_BYTES)
+    made = _derived(f"{name}:{number}".encode(), salt, iterations)[:HASH_BYTES]
     return base64.urlsafe_b64encode(made).decode()
+
+
+def _derived(password: bytes, salt: bytes, iterations: int) -> bytes:
+    """The first block of PBKDF2 with HMAC-SHA-256; a Python in a browser has no OpenSSL for it."""
+    if hasattr(hashlib, "pbkdf2_hmac"):
+        return hashlib.pbkdf2_hmac("sha256", password, salt, iterations)
+    keyed, link, total = hmac.new(password, digestmod="sha256"), salt + (1).to_bytes(4, "big"), 0
+    for _ in range(iterations):
+        (turn := keyed.copy()).update(link)
+        link = turn.digest()
+        total ^= int.from_bytes(link, "big")
+    return total.to_bytes(len(link), "big")
 
 
 def salt_of(secret: bytes, *said: str) -> bytes:

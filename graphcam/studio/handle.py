@@ -119,6 +119,38 @@ class Handle:
         }
 
 
+def size_handle(
+    view: str,
+    key: str,
+    name: Caption,
+    at: complex,
+    grows: complex,
+    axis: HandleAxis,
+    *,
+    magnets: Sequence[float] = (),
+    limit: bool = False,
+) -> Handle:
+    """A handle of one size, which goes along a line with it.
+
+    grows : how far and in which direction it goes when the size grows by 1 [mm of paper]
+    magnets : values that draw the size
+
+    >>> width = HandleAxis("b", say("Offset e"), "mm", 4.0, SizeRange(0.0, 10.0, 0.5), "x")
+    >>> size_handle("profile", "b", say("Offset e"), 2j, -0.5 + 0j, width).drag(-1.6 + 9j, False)
+    {'b': 7.0}
+    """
+    per_mm, along = 1 / abs(grows), grows / abs(grows)
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The size at the foot of the hand on the line, and what goes with it."""
+        value = axis.value + ((to - at) * along.conjugate()).real * per_mm
+        value = snapped(value, axis.range, fine=fine, magnets=magnets, reach=MAGNET_REACH * per_mm)
+        return changes_with(axis.extra or {}, axis.path, value)
+
+    shape = "y" if along.real == 0 else "x" if along.imag == 0 else "along"
+    return Handle(view, key, name, at, shape, (axis,), drag, along if shape == "along" else None, limit)
+
+
 @dataclass(frozen=True)
 class HandleState:
     """What is shown besides the task.

@@ -18,6 +18,7 @@ from graphcam.studio.handle import (
     in_degrees,
     nearest_station,
     phi_axis,
+    size_handle,
     snapped,
 )
 from graphcam.studio.handles_diagrams import cursor
@@ -66,13 +67,9 @@ def first_arc(solution: ArcsSolution) -> Iterator[Handle]:
     end = complex(*given.D) / mu
     towards = -end / abs(end)
     freed = dict.fromkeys(must_agree(given, "rho1"))
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"arcs.rho1": snapped(((to - end) * towards.conjugate()).real * mu, room, fine=fine), **freed}
-
     axis = HandleAxis("arcs.rho1", RHO_NAME, "mm", given.rho1, room, "x", {"first": freed, "sign": -1})
     at = end + towards * given.rho1 / mu
-    yield Handle(ARCS.name, "C1", POINT_NAMES["C1"], at, "along", (axis,), drag, along=towards)
+    yield size_handle(ARCS.name, "C1", POINT_NAMES["C1"], at, towards / mu, axis)
 
 
 def roller(solution: ArcsSolution, state: HandleState) -> Iterator[Handle]:
@@ -81,18 +78,14 @@ def roller(solution: ArcsSolution, state: HandleState) -> Iterator[Handle]:
     places, phi = np.asarray(rolled.first("B")), np.asarray(rolled.value("phi"))
     radius, room = solution.task.follower.roller_radius, ranges(solution)["follower.roller_radius"]
     start = complex(places[0])
-    out, base = start / abs(start), abs(start) - radius / mu
+    out = start / abs(start)
 
     def drag(to: complex, fine: bool) -> Changes:
         return {"phi": in_degrees(phi[nearest_station(places, to)])}
 
-    def widened(to: complex, fine: bool) -> Changes:
-        """The roller radius: the rim lies a diameter outside of the base circle."""
-        diameter = (to * out.conjugate()).real - base
-        return {"follower.roller_radius": snapped(diameter / 2 * mu, room, fine=fine)}
-
     at = complex(np.interp(math.radians(state.phi), phi, places))
     yield Handle(ROLLER.name, "phi", say("Position of the roller"), at, "xy", (phi_axis(state.phi),), drag)
     axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "x")
+    # It lies a diameter outside of the base circle.
     rim = start + out * radius / mu
-    yield Handle(ROLLER.name, "r", say("Rim of the roller"), rim, "along", (axis,), widened, along=out)
+    yield size_handle(ROLLER.name, "r", say("Rim of the roller"), rim, 2 * out / mu, axis)

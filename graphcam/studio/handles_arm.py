@@ -13,7 +13,16 @@ from graphcam.drafting.euclid import circle_crossing
 from graphcam.drafting.marks import Points
 from graphcam.plane_vectors import dot
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import MAGNET_REACH, Changes, Handle, HandleAxis, HandleState, point_on_curve, snapped
+from graphcam.studio.handle import (
+    MAGNET_REACH,
+    Changes,
+    Handle,
+    HandleAxis,
+    HandleState,
+    point_on_curve,
+    size_handle,
+    snapped,
+)
 from graphcam.studio.handles_profile import scale_of
 from graphcam.studio.size_ranges import (
     SizeRange,
@@ -123,13 +132,9 @@ def _cam_centre(solution: Solution) -> Iterator[Handle]:
 def _arm_at_rest(solution: Solution) -> Iterator[Handle]:
     """The end of the arm at rest, which is as far from the pivot as the arm is long."""
     arm, mu = sizes_of(solution.task)["arm"], solution.chain["pressure_angle"].givens.mu_l.per_mm
-    room = arms(solution)
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"follower.arm": snapped(-to.real * mu, room, fine=fine), **_fixed_sizes(solution)}
-
-    axis = HandleAxis("follower.arm", ARM, "mm", arm, room, "x", {"sign": -1})
-    yield Handle(REGION.name, "B0", ARM, complex(-arm / mu), "x", (axis,), drag)
+    extra = {"sign": -1, "first": _fixed_sizes(solution)}
+    axis = HandleAxis("follower.arm", ARM, "mm", arm, arms(solution), "x", extra)
+    yield size_handle(REGION.name, "B0", ARM, complex(-arm / mu), complex(-1 / mu), axis)
 
 
 def arms(solution: Solution) -> SizeRange:
@@ -160,13 +165,9 @@ def of_profile(solution: Solution) -> Iterator[Handle]:
 def _pivot(solution: Solution) -> Iterator[Handle]:
     chain, mu, arm = solution.chain, scale_of(solution), sizes_of(solution.task)["arm"]
     room = third_side(arm, chain.prime_radius, step_for(lift_of(solution)))
-
-    def drag(to: complex, fine: bool) -> Changes:
-        distance = snapped(to.real * mu, room, fine=fine)
-        return {"follower.distance": distance, "cam.prime_radius": chain.prime_radius}
-
-    axis = HandleAxis("follower.distance", DISTANCE, "mm", chain.place, room, "x")
-    yield Handle(PROFILE.name, "c", say("Pivot C"), complex(chain.place / mu), "x", (axis,), drag)
+    extra = {"first": {"cam.prime_radius": chain.prime_radius}}
+    axis = HandleAxis("follower.distance", DISTANCE, "mm", chain.place, room, "x", extra)
+    yield size_handle(PROFILE.name, "c", say("Pivot C"), complex(chain.place / mu), complex(1 / mu), axis)
 
 
 def _end_of_arm(solution: Solution) -> Iterator[Handle]:

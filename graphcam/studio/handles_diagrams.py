@@ -8,6 +8,7 @@ import numpy as np
 
 from graphcam.constructions.axes import phase_ends, phase_title
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
+from graphcam.drafting.euclid import UP
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
@@ -15,9 +16,9 @@ from graphcam.studio.handle import (
     Handle,
     HandleAxis,
     HandleState,
-    changes_with,
     over_stations,
     phi_axis,
+    size_handle,
     snapped,
 )
 from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, lift_size, ranges
@@ -71,15 +72,9 @@ def ordinate(solution: Solution) -> Iterator[Handle]:
     chain, span = solution.chain, solution.chain.spans[_first_rise(solution)]
     heights = np.abs(chain["acceleration"].first("stations")[span])
     at = float(chain["acceleration"].first("axis")[span][int(np.argmax(heights))].real)
-    room = ranges(solution)["drawing.ordinate"]
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"drawing.ordinate": snapped(to.imag, room, fine=fine)}
-
-    axis = HandleAxis(
-        "drawing.ordinate", say("Maximum ordinate of the first rise"), "mm", chain.board.ordinate, room, "y"
-    )
-    yield Handle(ACCELERATION.name, "ordinate", axis.name, complex(at, chain.board.ordinate), "y", (axis,), drag)
+    room, height = ranges(solution)["drawing.ordinate"], chain.board.ordinate
+    axis = HandleAxis("drawing.ordinate", say("Maximum ordinate of the first rise"), "mm", height, room, "y")
+    yield size_handle(ACCELERATION.name, "ordinate", axis.name, complex(at, height), UP, axis)
 
 
 def lift(solution: Solution) -> Iterator[Handle]:
@@ -89,16 +84,9 @@ def lift(solution: Solution) -> Iterator[Handle]:
     drawn, k = solution.chain["integration"], solution.chain.spans[_first_rise(solution)].stop - 1
     at = complex(float(solution.chain["acceleration"].first("axis")[k].real), float(drawn.first("s")[k]))
     start = drawn.first("s")[solution.chain.spans[_first_rise(solution)].start]
-
-    extra = {"with": size.shares}
-
-    def drag(to: complex, fine: bool) -> Changes:
-        lift = snapped((to.imag - start) / (at.imag - start) * size.value, size.range, fine=fine)
-        return changes_with(extra, size.path, lift)
-
     unit = "°" if solution.task.follower.column == "s_deg" else "mm"
-    axis = HandleAxis(size.path, say("Lift h"), unit, size.value, size.range, "y", extra)
-    yield Handle(DISPLACEMENT.name, "lift", axis.name, at, "y", (axis,), drag)
+    axis = HandleAxis(size.path, say("Lift h"), unit, size.value, size.range, "y", {"with": size.shares})
+    yield size_handle(DISPLACEMENT.name, "lift", axis.name, at, UP * (at.imag - start) / size.value, axis)
 
 
 def _first_rise(solution: Solution) -> int:
@@ -112,16 +100,10 @@ def pole(solution: Solution, view: str) -> Iterator[Handle]:
     k = (ACCELERATION.name, VELOCITY.name).index(view)
     poles, given = solution.chain.board.poles, solution.task.drawing.poles
     path, room = f"drawing.poles[{k}]", ranges(solution)[f"drawing.poles[{k}]"]
-
-    def drag(to: complex, fine: bool) -> Changes:
-        """The pole distance to the left of the origin; the other pole stays where it is."""
-        distance = snapped(-to.real, room, fine=fine)
-        return {"drawing.poles": [distance, poles[1]] if k == 0 else [poles[0], distance]}
-
-    first = None if given is not None else {"first": {"drawing.poles": list(poles)}}
+    first = {} if given is not None else {"drawing.poles": list(poles)}
     name = say("Pole distance H₁") if k == 0 else say("Pole distance H₂")
-    axis = HandleAxis(path, name, "mm", poles[k], room, "x", first)
-    yield Handle(view, f"P{k + 1}", name, complex(-poles[k]), "x", (axis,), drag)
+    axis = HandleAxis(path, name, "mm", poles[k], room, "x", {"sign": -1, "first": first})
+    yield size_handle(view, f"P{k + 1}", name, complex(-poles[k]), -1 + 0j, axis)
 
 
 def limits(solution: Solution) -> Iterator[Handle]:
@@ -137,16 +119,12 @@ def limits(solution: Solution) -> Iterator[Handle]:
         if given is None:
             continue
         path = f"limits.pressure_angle_{way}"
-        room = ranges(solution)[path]
         k = [phase.kind for phase in motion.phases].index(way)
         at = complex(math.degrees(motion.starts[k]) / mu, side * given / per_mm)
-
-        def drag(to: complex, fine: bool, side: int = side, room: SizeRange = room, path: str = path) -> Changes:
-            return {path: snapped(side * to.imag * per_mm, room, fine=fine)}
-
         reached = abs(math.degrees(float(chain["angle_diagram"].value(f"max_{way}"))))
-        axis = HandleAxis(path, name, "°", given, room, "y")
-        yield Handle(ANGLE.name, f"limit {way}", name, at, "y", (axis,), drag, limit=reached > given + 0.005)
+        axis = HandleAxis(path, name, "°", given, ranges(solution)[path], "y", {"sign": side})
+        is_over = reached > given + 0.005
+        yield size_handle(ANGLE.name, f"limit {way}", name, at, side * UP / per_mm, axis, limit=is_over)
 
 
 CURSOR_NAME: Caption = say("Cam angle φ")

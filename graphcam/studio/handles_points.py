@@ -6,8 +6,9 @@ from pathlib import PurePath
 from typing import NamedTuple
 
 from graphcam.constructions.views import DISPLACEMENT
+from graphcam.drafting.euclid import UP
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import Changes, Handle, HandleAxis, changes_with
+from graphcam.studio.handle import Changes, Handle, HandleAxis, changes_with, size_handle
 from graphcam.studio.size_ranges import SizeRange, round_up, step_for
 from graphcam.words import say
 
@@ -110,11 +111,5 @@ def rows(solution: Solution) -> Iterator[Handle]:
             "beyond": {f"motion.table.rows[{j}][1]": round(given[j][1] - start * shares[j], 4) for j in shares},
         }
         axis = HandleAxis(f"motion.table.rows[{k}][1]", say("Displacement s"), unit, start, lifts, "y", extra)
-
-        def drag(to: complex, fine: bool, axis: HandleAxis = axis, at: complex = at) -> Changes:
-            """The displacement upwards, with the rows beside it."""
-            height = axis.range.nearest_step(axis.value + (to.imag - at.imag) * paper.lift, fine=fine)
-            return changes_with(axis.extra or {}, axis.path, height)
-
         name = say("Row of the table at {angle:g}°", angle=given[k][0])
-        yield Handle(DISPLACEMENT.name, f"point {k}", name, at, "y", (axis,), drag)
+        yield size_handle(DISPLACEMENT.name, f"point {k}", name, at, UP / paper.lift, axis)

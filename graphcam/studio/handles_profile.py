@@ -12,7 +12,6 @@ from graphcam.drafting.euclid import UP
 from graphcam.given.follower import sense
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
-    MAGNET_REACH,
     Changes,
     Handle,
     HandleAxis,
@@ -21,7 +20,7 @@ from graphcam.studio.handle import (
     nearest_station,
     over_stations,
     phi_axis,
-    snapped,
+    size_handle,
 )
 from graphcam.studio.size_ranges import SizeRange, lift_of, multiple_below, ranges, sizes_of, step_for, third_side
 from graphcam.words import say
@@ -43,14 +42,10 @@ def prime_circle(solution: Solution) -> Iterator[Handle]:
     fine = room.step / 5
     found = [] if math.isnan(least) else [round(math.ceil(least / fine - 1e-9) * fine, 9)]
 
-    def drag(to: complex, fine: bool) -> Changes:
-        """The prime radius; the least one draws it."""
-        r0 = snapped(-to.imag * mu, room, fine=fine, magnets=found, reach=MAGNET_REACH * mu)
-        return {"cam.prime_radius": r0, **kept_place(solution)}
-
-    axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, room, "y", {"sign": -1})
-    too_small = radius < least - fine / 10
-    yield Handle(PROFILE.name, "r0", PRIME_CIRCLE_NAME, -UP * radius / mu, "y", (axis,), drag, limit=too_small)
+    extra = {"sign": -1, "first": kept_place(solution)}
+    axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, room, "y", extra)
+    at, too_small = -UP * radius / mu, radius < least - fine / 10
+    yield size_handle(PROFILE.name, "r0", PRIME_CIRCLE_NAME, at, -UP / mu, axis, magnets=found, limit=too_small)
 
 
 def radii(solution: Solution) -> SizeRange:
@@ -71,12 +66,8 @@ def kept_place(solution: Solution) -> Changes:
 def offset_circle(solution: Solution) -> Iterator[Handle]:
     """The handle where the follower's line touches the offset circle at the start of the turn."""
     mu, offset, room = scale_of(solution), solution.chain.place, ranges(solution)["follower.offset"]
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"follower.offset": snapped(to.real * mu, room, fine=fine)}
-
     axis = HandleAxis("follower.offset", say("Offset e"), "mm", offset, room, "x")
-    yield Handle(PROFILE.name, "e", OFFSET_CIRCLE_NAME, complex(offset / mu), "x", (axis,), drag)
+    yield size_handle(PROFILE.name, "e", OFFSET_CIRCLE_NAME, complex(offset / mu), complex(1 / mu), axis)
 
 
 def pitch_at(solution: Solution, phi: float) -> complex:
@@ -98,16 +89,9 @@ def roller_rim(solution: Solution, state: HandleState) -> Iterator[Handle]:
     if solution.task.prime_radius is None and math.isfinite(rho):  # a larger roller would find a larger prime radius
         room = room._replace(most=max(room.least, min(room.most, multiple_below(rho / BLUNT_FACTOR, step))))
     sharpest = [round(math.floor(5 * rho / step) * step / 5, 9)] if math.isfinite(rho) else []
-
-    def drag(to: complex, fine: bool) -> Changes:
-        """The roller radius; the one at which the profile gets an edge draws it."""
-        length = ((to - centre) * out.conjugate()).real * mu
-        return {"follower.roller_radius": snapped(length, room, fine=fine, magnets=sharpest, reach=MAGNET_REACH * mu)}
-
     axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "y")
-    undercut = radius >= rho
-    at = centre + out * radius / mu
-    yield Handle(PROFILE.name, "r", RIM_NAME, at, "along", (axis,), drag, along=out, limit=undercut)
+    at, undercut = centre + out * radius / mu, radius >= rho
+    yield size_handle(PROFILE.name, "r", RIM_NAME, at, out / mu, axis, magnets=sharpest, limit=undercut)
 
 
 def pitch_point(solution: Solution, state: HandleState) -> Iterator[Handle]:

@@ -26,7 +26,7 @@ from graphcam.studio.handle import (
     nearest_station,
     over_stations,
     phi_axis,
-    snapped,
+    size_handle,
 )
 from graphcam.studio.size_ranges import SizeRange, lift_of, multiple_above, ranges, round_up, step_for
 from graphcam.tasks.task import ANGLE_RANGE
@@ -178,16 +178,9 @@ def flat_centre(solution: Solution) -> Iterator[Handle]:
     mu = region.readings["prime_radius"].per_mm
     least = float(region.value("prime_radius"))
     found = math.ceil(5 * least / sizes.step - 1e-9) * sizes.step / 5
-
-    def drag(to: complex, fine: bool) -> Changes:
-        """The prime radius; the least one draws it."""
-        radius = snapped(-to.imag * mu, sizes, fine=fine, magnets=[round(found, 9)], reach=MAGNET_REACH * mu)
-        return {"cam.prime_radius": radius}
-
     axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", chain.prime_radius, sizes, "y", {"sign": -1})
-    at = complex(0.0, -chain.prime_radius / mu)
-    outside = chain.prime_radius < least - EDGE_TOLERANCE * mu
-    yield Handle(COMBINED.name, "A", CENTRE_NAME, at, "y", (axis,), drag, limit=outside)
+    at, outside = -UP * chain.prime_radius / mu, chain.prime_radius < least - EDGE_TOLERANCE * mu
+    yield size_handle(COMBINED.name, "A", CENTRE_NAME, at, -UP / mu, axis, magnets=[round(found, 9)], limit=outside)
 
 
 def flat_point(solution: Solution, state: HandleState) -> Iterator[Handle]:

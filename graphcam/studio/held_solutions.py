@@ -25,6 +25,7 @@ from graphcam.solving.arcs_solution import AnySolution, solve_arcs
 from graphcam.solving.diagram_sizes import DrawnHeights
 from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import board_of
+from graphcam.studio.size_ranges import sizes_of
 from graphcam.studio.views_request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -34,6 +35,8 @@ MAX_HEIGHT = 2000.0
 """The maximum height of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
 
 
+CENTRE_SHARE = 0.8
+"""The share of it that the cam centre may lie below the curve; the rest is for the curve and the labels."""
 PLACE_DECIMALS = 3
 """Decimals of places [mm] and of angles [rad]: a thousandth is not seen."""
 Plain = dict[str, Any]
@@ -272,6 +275,23 @@ def check_heights(board: Board) -> None:
         )
         remedy = say("take a smaller one or leave it out, or lengthen the shortest phase")
         raise DesignError("drawing.ordinate", say("{length:.3g} mm", length=board.ordinate), limit, remedy)
+
+
+def has_far_centre(solution: AnySolution) -> bool:
+    """Whether a stem's cam centre is too far away for its combined diagram, whose scale is that of s.
+
+    >>> import graphcam as gc
+    >>> task = gc.builtin_task().to_dict()
+    >>> near, far = (held_solution(task | {"cam": {"prime_radius": radius}}) for radius in (60.0, 2000.0))
+    >>> has_far_centre(near), has_far_centre(far)
+    (False, True)
+    """
+    if not isinstance(solution, Solution) or "offset" not in sizes_of(solution.task):
+        return False
+    board = solution.chain.board
+    first, second = board.poles
+    height = board.ordinate * DrawnHeights(board.motion, board.mu_phi).unit[2] / (first * second)
+    return solution.chain.prime_radius * height / board.motion.lift > CENTRE_SHARE * MAX_HEIGHT
 
 
 def held_board(board: Board, task: Task, hold: DragHold) -> Board:

@@ -52,10 +52,17 @@ UNUSED_FOLDERS = frozenset(
     }
 )
 UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
-UNUSED_MODULES = "_multiarray_tests.", "_simd.", "_umath_tests.", "_rational_tests.", "_struct_ufunc_tests.", "_operand"
+UNUSED_MODULES = (
+    *("_multiarray_tests.", "_simd.", "_umath_tests.", "_rational_tests.", "_struct_ufunc_tests.", "_operand"),
+    *("lapack_lite.", "mtrand.", "_mt19937.", "_philox.", "_sfc64.", "_pickle."),
+)
 """Of NumPy what is for tests, compilers, type checkers or installers, and what no drawing needs."""
-SPOKEN_MODULES = "_add_newdocs.py", "_add_newdocs_scalars.py"
-"""Modules of NumPy that only say what it does, and are empty here."""
+OTHER_MODULES: Mapping[str, bytes] = {
+    **dict.fromkeys(("numpy/_core/_add_newdocs.py", "numpy/_core/_add_newdocs_scalars.py"), b""),
+    "numpy/random/__init__.py": b"from ._generator import Generator, default_rng\n",
+}
+"""What stands in modules of NumPy in place of what they have: those that only say what it does are empty, and of the
+random numbers there is one kind."""
 UNUSED_LIBRARIES = frozenset(
     {
         *("multiprocessing", "unittest", "xml", "xmlrpc", "wsgiref", "pydoc.py", "doctest.py", "pdb.py", "bdb.py"),
@@ -64,6 +71,11 @@ UNUSED_LIBRARIES = frozenset(
         *("trace.py", "pstats.py", "profile.py", "cProfile.py", "aifc.py", "sunau.py", "wave.py", "modulefinder.py"),
         *("plistlib.py", "socketserver.py", "turtle.py", "tabnanny.py", "pyclbr.py", "zipapp.py"),
         *("shelve.py", "sndhdr.py", "pipes.py", "mailcap.py", "xdrlib.py", "crypt.py", "compileall.py", "timeit.py"),
+        *("http", "email", "ctypes", "sqlite3", "curses", "dbm", "tkinter", "ensurepip", "venv", "pydoc_data"),
+        *("tarfile.py", "argparse.py", "configparser.py", "zoneinfo", "uuid.py", "_pydatetime.py"),
+        *("calendar.py", "_strptime.py", "mimetypes.py", "pprint.py", "cmd.py", "fileinput.py", "runpy.py", "code.py"),
+        *("stringprep.py", "_markupbase.py", "filecmp.py", "symtable.py", "py_compile.py", "getopt.py"),
+        *("urllib/request.py", "urllib/robotparser.py", "logging/handlers.py", "logging/config.py", "html/parser.py"),
     }
 )
 """Of Python's own library what nothing here asks for."""
@@ -77,16 +89,19 @@ UNREAD_FILES = frozenset(
     {
         *("hard_cases.toml", "space.toml"),
         *("matplotlib_renderer.py", "dxf_renderer.py", "cad_renderer.py", "output_folder.py", "sizing_files.py"),
-        *("server.py", "local_studio.py", "widget.py"),
+        *("server.py", "local_studio.py", "widget.py", "studio_page.py", "worker_page.py", "pyodide_parts.py"),
         *("commented_task.py", "help_texts.py", "examples.toml"),
-        *("working_drawing.py", "part_layout.py", "cutting_files.py", "cutter_path.py", "solid.py"),
+        *("working_drawing.py", "part_layout.py", "part_views.py", "part_contents.py", "part_symbols.py"),
+        *("cutting_files.py", "cutter_path.py", "solid.py", "marked_paper.py", "fewer_sheets.py"),
+        *("sizing.py", "sizing_limits.py", "sizing_design.py", "sizing_sheet.py", "size_sensitivity.py"),
+        *("oscillator.py", "shock_response.py", "follower_train.py"),
     }
 )
-"""The data of such rooms; what needs Matplotlib, ezdxf, a server or a notebook; what writes a new task file, or
-files for the workshop."""
+"""The data of such rooms; what needs Matplotlib, ezdxf, a server or a notebook, or makes the page; what writes a new
+task file, or files for the workshop; the search for sizes, and the swinging of a spring."""
 KEPT_ENDINGS = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
 """Kinds of files of graphcam that the engine reads; pages, scripts and fonts are not for it."""
-ENGINE_LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")
+ENGINE_LIBRARIES = ("lazy_loader", "tomli_w")
 """What the engine imports besides NumPy."""
 ENTRY_DATE = (1980, 1, 1, 0, 0, 0)
 """The date of every file in an archive, so that the same files always make the same archive."""
@@ -111,8 +126,8 @@ def numpy_archive(name: str, content: bytes) -> bytes:
     name, content : a wheel, or a package of conda for Emscripten
     """
     packed = _of_wheel(content) if name.endswith(".whl") else _of_conda(content)
-    used = {path: file for path, file in packed if _is_used(PurePosixPath(path))}
-    return stored_zip({path: b"" if path.endswith(SPOKEN_MODULES) else file for path, file in used.items()})
+    used = {path: OTHER_MODULES.get(path, file) for path, file in packed if _is_used(PurePosixPath(path))}
+    return stored_zip({path: without_words(file) if path.endswith(".py") else file for path, file in used.items()})
 
 
 def _is_used(path: PurePosixPath) -> bool:
@@ -123,23 +138,37 @@ def _is_used(path: PurePosixPath) -> bool:
 def library_archive(content: bytes) -> bytes:
     """What is needed of Python's own library, from its zip."""
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        names = [name for name in archive.namelist() if name.partition("/")[0] not in UNUSED_LIBRARIES]
+        names = [name for name in archive.namelist() if not {name, name.partition("/")[0]} & UNUSED_LIBRARIES]
         kept = [name for name in names if not name.startswith("encodings/") or KEPT_CODECS.fullmatch(name)]
-        return stored_zip({name: archive.read(name) for name in kept})
+        # What Pyodide says of its own functions is theirs when it starts.
+        said = {name: name.endswith(".py") and not name.startswith("_pyodide/") for name in kept}
+        return stored_zip({name: (without_words if said[name] else bytes)(archive.read(name)) for name in kept})
+
+
+def lock_without_packages(content: bytes) -> bytes:
+    """What Pyodide reads when it starts, without the packages that it could fetch."""
+    return json.dumps(json.loads(content) | {"packages": {}}).encode()
 
 
 def without_words(source: bytes) -> bytes:
     """A module without its comments and docstrings, which are half of it and nobody reads in a browser.
 
+    What had a docstring has an empty one, for NumPy hands them on.  What is written for a newer Python than this one
+    stays as it is.
+
     >>> without_words(b"def two():\\n    'The number.'\\n    return 2  # always")
-    b'def two():\\n    return 2'
+    b"def two():\\n    ''\\n    return 2"
     """
-    tree = ast.parse(source)
+    try:
+        tree = ast.parse(source)
+    except SyntaxError:
+        return source
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
             # A string that stands alone says something, also of the name before it.
             said = [one for one in node.body if isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant)]
-            node.body = [one for one in node.body if one not in said] or [ast.Pass()]
+            said_first = [ast.Expr(ast.Constant(""))] if said[:1] == node.body[:1] else []
+            node.body = [*said_first, *(one for one in node.body if one not in said)]
     return ast.unparse(tree).encode()
 
 

@@ -240,11 +240,16 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     if "lift" in sizes:
         yield make.choice("follower.lift", say("Lifts of the phases"), LIFT_NAMES.items())
     if "roller_rule" in sizes:
-        rules: list[tuple[str, Words]] = [(DEFAULT_RULE, DEFAULT_RULE)]
-        rules += [(name, f"{each.rule} ({name})") for name, each in NAMED_RULES.items()]
+        rules: list[tuple[str, Words]] = [(DEFAULT_RULE, _in_letters(DEFAULT_RULE))]
+        rules += [(name, f"{_in_letters(each.rule)} ({name})") for name, each in NAMED_RULES.items()]
         yield make.choice("follower.roller_rule", say("Rule for the roller"), rules)
     if not solution.task.motion.gives_cam:
         yield from make.numbers("cam")
+
+
+def _in_letters(rule: str) -> str:
+    """A rule of the roller as a textbook writes it."""
+    return rule.replace("rho", "ρ").replace("r0", "r₀")
 
 
 def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from graphcam.constructions.views import COMBINED
 from graphcam.language import Language, language
 from graphcam.report.documents import scene_of
 from graphcam.report.mechanism_view import mechanism_view
@@ -16,7 +17,15 @@ from graphcam.solving.task_board import format_of
 from graphcam.studio.drawn_views import DrawnView, digest, drawn_view, key_of
 from graphcam.studio.handle import Changes
 from graphcam.studio.handles import MECHANISM_VIEW, dragged_within, handles_of
-from graphcam.studio.held_solutions import DragHold, diagrams_of, held_solution, hold_of, scales_of, station_of
+from graphcam.studio.held_solutions import (
+    DragHold,
+    diagrams_of,
+    has_far_centre,
+    held_solution,
+    hold_of,
+    scales_of,
+    station_of,
+)
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.studio_values import compared_quantities, given_sizes, sizes, values, warnings
 from graphcam.studio.task_paths import changed_task
@@ -99,6 +108,9 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
     drawn = clock.timed("svg", lambda: _drawn_views(solution, known, asked, spoken, hold))
     plain = clock.timed("svg", lambda: [_view(view, drawn[key_of(view)], known, told, spoken) for view in asked])
     names = list(hold.names) if hold else known.names(spoken.text)
+    # What cannot be drawn is not offered: else it would be refused where it is looked at.
+    if not hold and has_far_centre(solution):
+        names = [each for each in names if each["name"] != COMBINED.name]
     return {
         "changes": moved.changes,
         "names": names,

@@ -33,7 +33,10 @@ def test_a_view_larger_than_any_sheet_is_an_error_at_once():
     assert "at most 2000 mm wide and high" in error["message"]
     # The page puts the two together.
     assert error["remedy"] not in error["message"]
-    assert answer({**request, "views": [{"name": "profile", "px_per_mm": 4}]})["ok"]
+    found = answer({**request, "views": [{"name": "profile", "px_per_mm": 4}]})
+    assert found["ok"]
+    # It is not offered either.
+    assert {"combined", "profile"} - {view["name"] for view in found["names"]} == {"combined"}
 
 
 def test_random_requests_are_answered():

@@ -55,6 +55,13 @@ def test_the_hash_is_that_of_the_standard():
     assert hashed("r0", 53, SALT, FEW) == base64.urlsafe_b64encode(made).decode()
 
 
+def test_without_openssl_the_hash_is_the_same(monkeypatch):
+    known = hashed("r0", 53, SALT, FEW)
+    monkeypatch.delattr(hashlib, "pbkdf2_hmac")
+    assert hashed("r0", 53, SALT, FEW) == known
+    assert hashed("r0", 53, b"salt", 1) == "5Cs5zhFq"
+
+
 @given(
     st.floats(-500, 500).map(lambda x: round(x, 4)),
     st.floats(0.01, 5),

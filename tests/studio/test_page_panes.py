@@ -199,3 +199,38 @@ def test_no_other_pane_tells_what_is_asked(opened, mode):
     page.evaluate("() => studio.open('mechanism')")
     settled(page)
     assert len(beside(page)) == 4
+
+
+COVERED = """() => {
+  const boxes = (at) => [...document.querySelectorAll(at)].map((text) => text.getBoundingClientRect());
+  const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  const taken = boxes("#steps-beside text");
+  return boxes("#cursors-beside .reading").filter((own) => taken.some((box) => meet(own, box))).length;
+}"""
+
+
+@pytest.mark.parametrize(("wide", "high"), [(390, 844), (1440, 900)])
+def test_what_is_read_at_the_cursor_covers_no_letters(opened, wide, high):
+    page = opened(wide=wide, high=high, config=OPENING, reduced_motion="reduce")
+    assert page.evaluate(COVERED) == 0
+
+
+def test_on_a_phone_no_diagram_is_cut(opened):
+    page = opened(wide=390, high=844, config=OPENING, reduced_motion="reduce")
+    bottom = page.evaluate("() => document.getElementById('canvas-beside').getBoundingClientRect().bottom")
+    curves = page.evaluate(
+        "() => [...document.querySelectorAll('#steps-beside .line.result')].map((line) => line.getBoundingClientRect())"
+        ".map(({ top, bottom }) => [top, bottom])"
+    )
+    assert [top < bottom < end for top, end in curves].count(True) == 0
+    assert sum(end <= bottom for _, end in curves) >= 2
+
+
+def test_a_drawing_of_which_nothing_is_found_is_an_answer(opened):
+    page, task = opened(), gc.builtin_arcs_task().to_dict()
+    task["arcs"] |= {"A": [-3.0, 36.0]}
+    del task["arcs"]["C2"]
+    page.evaluate("task => studio.load(task, 'arcs')", task)
+    settled(page)
+    assert page.evaluate("() => studio.shown.error") is None
+    assert "C2 cannot be read" in page.locator("#panel-step").inner_text()

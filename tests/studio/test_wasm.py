@@ -80,7 +80,7 @@ def page(browser, one_file):
 
 
 def test_one_file_opens_without_a_request(page, one_file):
-    assert one_file.stat().st_size <= 12 * MEGABYTE
+    assert one_file.stat().st_size <= 9 * MEGABYTE
     foreign = [url for url in page.asked if not url.startswith((one_file.as_uri(), "blob:"))]
     assert foreign == []
     assert page.wrong == []
@@ -166,7 +166,7 @@ def served(folder):
 def test_a_site_works_without_a_network_after_the_first_visit(browser, pyodide, tmp_path):
     write_site(tmp_path / "site", pyodide, builtin("arm"))
     sizes = [len(gzip.compress(path.read_bytes())) for path in (tmp_path / "site").iterdir()]
-    assert sum(sizes) <= 10 * MEGABYTE
+    assert sum(sizes) <= 7.5 * MEGABYTE
     with served(tmp_path / "site") as address, opened(browser, address) as page:
         assert [url for url in page.asked if not url.startswith((address, f"blob:{address}"))] == []
         page.evaluate("navigator.serviceWorker.ready.then(() => true)")

@@ -121,9 +121,11 @@ def contradictions(page: Page) -> list[str]:
     if page.evaluate("() => studio.shown.sizes") != engine["sizes"]:
         found.append("the picture is of another cam")
     for name, plain, svg in page.evaluate(PANES):
-        (view,) = answer({"task": task, "views": [{"name": name, "px_per_mm": 1.0, "plain": plain}], "told": True})[
-            "views"
-        ]
+        asked = answer({"task": task, "views": [{"name": name, "px_per_mm": 1.0, "plain": plain}], "told": True})
+        if not asked["ok"]:
+            found.append(f"a pane shows {name}, which cannot be drawn: {asked['error']['message']}")
+            continue
+        (view,) = asked["views"]
         if RESULT.findall(svg) != RESULT.findall("".join(step["svg"] for step in view["steps"].values())):
             found.append(f"a pane shows {name} of another cam")
     if page.evaluate(READ) != task:

@@ -3,6 +3,8 @@
 
 // The small views are drawn when nothing was moved for so long; the address follows as late [ms].
 const REST = 120;
+// The engine letters for no more pixels for a millimetre: a drawing of which little could be found is small.
+const MOST_SCALE = 40;
 // A view is lettered anew if it turns out so much larger or smaller than it was asked for.
 const OTHER_SIZE = 1.12;
 
@@ -16,11 +18,11 @@ function askingOf(page) {
   // Pixels for a millimetre; before the first answer about as many as most views get.
   function scaleOf({ at, stage, usual }, picture) {
     const [wide, high] = usual, { clientWidth, clientHeight } = at("canvas");
-    return picture ? stage.scale(picture) : Math.min(clientWidth / wide, clientHeight / high) || 1.5;
+    return Math.min(MOST_SCALE, picture ? stage.scale(picture) : Math.min(clientWidth / wide, clientHeight / high) || 1.5);
   }
 
   // Letters grow with the stage: on a phone they can just be read, on a projector from afar [pixels].
-  const letterHeight = ({ at, letters }) => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / letters, at("canvas").clientHeight / 50)));
+  const letterHeight = ({ at, letters }) => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / letters, at("canvas").clientHeight / 36)));
 
   // Several views in one pane stand there without their construction.
   function viewsAsked(aim = {}) {
@@ -83,6 +85,7 @@ function askingOf(page) {
     if (request.told) page.showAll();
     else page.showAnswer();
     if (request.values && !request.told) page.showValueTables();
+    page.answered?.();
     askAgain(request.views);
   }
 

@@ -8,7 +8,7 @@ const halfDegree = (degrees) => ((Math.round(2 * degrees) / 2) % 360 + 360) % 36
 function camAngleOf(page) {
   const { at, word, state, last, decimal } = page, now = state.get;
   const turning = { on: false, before: null, exact: 0 };
-  const curves = new WeakMap();
+  const curves = new WeakMap(), stood = new Map();
   let sparks = [];
 
   // --- what is shown of it ----------------------------------------------------------------------------------------------
@@ -80,12 +80,31 @@ function camAngleOf(page) {
     if (!knob || !frame) return;
     const [x] = knob.at, own = page.picture(pane), side = x > frame[0] + 0.75 * frame[2] ? "end" : "start";
     drawSvg("path", "cursor", { d: `M${x} ${frame[1] - frame[3]}v${3 * frame[3]}` }, layer);
+    const taken = !turning.on && !page.hand ? [...pane.at("steps").querySelectorAll("text")].map((text) => text.getBoundingClientRect()) : [];
     for (const { name, ordinate } of own?.down ? own.views : []) {
       const y = heightOf(pane, name, x), at = y + own.down[name];
       if (`${name}/phi` !== knob.id) drawSvg("circle", "here", { cx: x, cy: at, r: 1 }, layer);
       const said = shortNumber(Number((-y * ordinate.per_mm).toPrecision(3)), decimal()) + (ordinate.unit === "°" ? "°" : "");
-      drawSvg("text", "reading", { x, y: at, "text-anchor": side, dx: side === "end" ? "-.9em" : ".9em", dy: y > 0 ? "1.2em" : "-.5em" }, layer).textContent = said;
+      const reading = drawSvg("text", "reading", { x, y: at }, layer);
+      reading.textContent = said;
+      standFree(reading, name, taken, side, y > 0);
     }
+  }
+
+  // Beside its point, and at rest where no letters of the drawing stand; while something moves it does not hop.
+  function standFree(reading, name, taken, side, below) {
+    const put = (place) => Object.entries(place).forEach(([key, value]) => reading.setAttribute(key, value));
+    const meets = (own, box) => own.left < box.right && box.left < own.right && own.top < box.bottom && box.top < own.bottom;
+    const isFree = (place) => {
+      put(place);
+      const own = reading.getBoundingClientRect();
+      return !taken.some((box) => meets(own, box));
+    };
+    const places = [side, side === "end" ? "start" : "end"].flatMap((anchor) => [below, !below].map((down) => ({
+      "text-anchor": anchor, dx: anchor === "end" ? "-.9em" : ".9em", dy: down ? "1.2em" : "-.5em",
+    })));
+    if (taken.length) stood.set(name, places.find(isFree) || places[0]);
+    put(stood.get(name)?.["text-anchor"] === side || taken.length ? stood.get(name) : places[0]);
   }
 
   // --- handles as they stand on the page -----------------------------------------------------------------------------------

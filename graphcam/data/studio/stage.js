@@ -116,7 +116,7 @@ const mustMove = (shown, wanted) =>
 
 function stageOf(at) {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const frames = new Map(), wholes = new Map(), details = new Set(), watching = [];
+  const frames = new Map(), wholes = new Map(), firsts = new Map(), details = new Set(), watching = [];
   let shown = null, filled = null, board = null, gliding = 0, several = 1;
 
   const svg = () => (shown === "mechanism" ? at("scene") : at("drawing"));
@@ -201,13 +201,15 @@ function stageOf(at) {
     shown = name;
     several = ends?.length || 1;
     wholes.set(name, wanted);
-    if (anew) details.delete(name);
+    // What is seen first is found again for other views or another size of the window, until the hand has moved it.
+    const isFirst = details.has(name) && !held && frames.get(name) === firsts.get(name);
+    if (anew || isFirst) details.delete(name);
     at("drawing").toggleAttribute("hidden", name === "mechanism");
     at("scene").toggleAttribute("hidden", name !== "mechanism");
-    const frame = frames.get(name);
-    const first = firstOf(picture);
+    const frame = isFirst ? undefined : frames.get(name), first = firstOf(picture);
     if (!frame && !alike(first, wanted)) {
       details.add(name);
+      firsts.set(name, first);
       setFrame(first);
     } else if (details.has(name)) setFrame(frame);
     else if (!frame || (other && !held && mustMove(frame, wanted))) setFrame(wanted);

@@ -26,7 +26,7 @@
     return { at: own, stage: stageOf(own), gallery: galleryOf(), names, ...more };
   };
   const panes = [
-    paneOf("", (main = page.view()) => [main], { usual: [190, 180], letters: 60 }),
+    paneOf("", (main = page.view()) => [main], { usual: [190, 180], letters: 44 }),
     paneOf("-beside", (main) => page.beside(main), { usual: [390, 520], letters: 40 }),
   ];
   const page = {
@@ -233,6 +233,7 @@
   }
   page.showPanels();
   page.showStatus();
+  const answered = new Promise((done) => Object.assign(page, { answered: done }));
   const isShown = found.task ? wantWhole(found) : page.ask() || true;
   const sized = new ResizeObserver(resized);
   for (const pane of panes) sized.observe(pane.at("canvas"));
@@ -242,7 +243,9 @@
   await isShown;
   setMode(now().exercise ? "exercise" : mode || "play");
   showModes();
-  // The page opens with a cam that turns, where nobody asked for an angle or for less motion.
-  const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  // The page opens with a cam that turns, where nobody asked for an angle or for less motion.  Until the engine has answered
+  // the processor is the engine's.
+  await answered;
+  const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches || page.hand || now().phi !== USUAL_PHI;
   if (now().mode === "play" && found.phi === undefined && !isCalm && panes.some((pane) => pane.names().includes("mechanism"))) page.turn();
 })();
