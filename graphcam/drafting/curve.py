@@ -14,8 +14,8 @@ PLACE_DECIMALS = 6
 BLENDING = np.array([[0.0, 1.0, 0.0, 0.0], [-0.5, 0.0, 0.5, 0.0], [1.0, -2.5, 2.0, -0.5], [-0.5, 1.5, -1.5, 0.5]])
 """The parabolas through the first and the last three of four points, blended between the middle ones: what each point
 gives to the powers 0 to 3 of the fraction of that part."""
-MAX_SECANTS, ON_LINE = 50, 1e-13
-"""So many chords at most are drawn to find where a line meets a part, until the place lies so near it [mm]."""
+MAX_SECANTS, SAME_SHARE = 50, 2.0**-50
+"""So many secants at most are drawn to find where a line meets a part, until two meet it at the same share of it."""
 
 Distances = NDArray[np.floating[Any]]
 Reach = Callable[[Points], tuple[Distances, Distances]]
@@ -204,17 +204,19 @@ def _first_zero(height: Callable[[Distances], Distances], begin: Distances, end:
     1971); ``begin`` and ``end`` are the heights there."""
     low, high = np.zeros(begin.shape), np.ones(begin.shape)
     bottom, top, before = begin, end, np.zeros(begin.shape)
-    t = low
+    share, goes_on = low, begin * end <= 0
     for _ in range(MAX_SECANTS):
         with np.errstate(invalid="ignore", divide="ignore"):
-            t = np.where(top == bottom, (low + high) / 2, high - top * (high - low) / (top - bottom))
-        there = height(t)
-        if not np.any(np.abs(there) > ON_LINE, where=begin * end < 0):
+            t = np.where(top == bottom, low, high - top * (high - low) / (top - bottom))
+        # Where it comes to rest it stays, whatever lines are looked at with it.
+        share, goes_on = np.where(goes_on, t, share), goes_on & (np.abs(t - share) > SAME_SHARE)
+        if not goes_on.any():
             break
+        there = height(share)
         side = np.where(there * top > 0, 1, -1)
         low, high = np.where(side < 0, t, low), np.where(side > 0, t, high)
         # An end that stays twice counts half.
         halved = np.where(side == before, 0.5, 1.0)
         bottom, top = np.where(side < 0, there, halved * bottom), np.where(side > 0, there, halved * top)
         before = side
-    return t
+    return share
