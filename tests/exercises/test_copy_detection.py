@@ -28,8 +28,6 @@ from graphcam.exercises.marking.copy_detection import (
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.reports.report_files import GroupNotes, copies_table, write_reports
 
-pytestmark = pytest.mark.slow
-
 NAME, STUDENTS = "acceleration-and-scales", 12
 
 
@@ -64,6 +62,7 @@ def by_hand(keys: np.ndarray, seed: int = 1) -> np.ndarray:
     return np.round(keys + 0.3 * np.random.default_rng(seed).standard_normal(keys.shape), 1)
 
 
+@pytest.mark.slow
 def test_who_handed_in_anothers_variant_is_named_with_its_owner():
     course = honest()
     records = [each[0] for each in course.careful]
@@ -77,6 +76,7 @@ def test_who_handed_in_anothers_variant_is_named_with_its_owner():
     assert set(found[0].answers) <= wrong
 
 
+@pytest.mark.slow
 def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tmp_path: Path):
     course = honest()
     records = [each[0] for each in course.careful]
@@ -96,6 +96,7 @@ def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tm
     assert ["fit the other" in page for page in pages] == [False, True]
 
 
+@pytest.mark.slow
 def test_wrong_numbers_taken_over_are_named_once():
     course = honest()
     records = [each[0] for each in course.careful]
@@ -106,6 +107,7 @@ def test_wrong_numbers_taken_over_are_named_once():
     assert [(pair.student, pair.other, pair.kind) for pair in found] == [("student 3", "student 7", "wrong numbers")]
 
 
+@pytest.mark.slow
 def test_nobody_is_compared_with_who_has_no_key_and_one_alone_with_nobody():
     course = honest()
     record = course.careful[0][0]
@@ -229,6 +231,7 @@ def test_the_table_of_pairs_is_safe_and_whole():
     ]
 
 
+@pytest.mark.slow
 @over_all("name", [NAME, "whole-cam"])
 @over_seeds(1)
 def test_honest_courses_name_nobody(name: str, seed: int):
