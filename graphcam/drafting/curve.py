@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
@@ -183,20 +184,10 @@ def meeting(points: Points, pieces: Sequence[slice], reach: Reach) -> tuple[Poin
     four = np.take_along_axis(np.broadcast_to(parts, (*out.shape, 4)), best[..., None], -2)
     cubic = np.moveaxis(four @ BLENDING.T, -1, 0)
     begin, end = np.take_along_axis(before, best, -1), np.take_along_axis(after, best, -1)
-    share = _first_zero(lambda t: reach(_horner(cubic, t))[0], begin, end)
-    places, ways = (
-        _horner(cubic, share)[..., 0],
-        _horner(cubic[1:] * np.arange(1, 4).reshape(-1, *(1,) * (cubic.ndim - 1)), share)[..., 0],
-    )
+    share = _first_zero(lambda t: reach(polyval(t, cubic, tensor=False))[0], begin, end)
+    places = polyval(share, cubic, tensor=False)[..., 0]
+    ways = polyval(share, polyder(cubic), tensor=False)[..., 0]
     return np.where(met, places, np.nan), np.where(met, ways, np.nan)
-
-
-def _horner(coefficients: Points, t: Distances) -> Points:
-    """The values of polynomials with coefficients (n, ...) of the rising powers of t (...)."""
-    value = coefficients[-1]
-    for coefficient in coefficients[-2::-1]:
-        value = value * t + coefficient
-    return value
 
 
 def _first_zero(height: Callable[[Distances], Distances], begin: Distances, end: Distances) -> Distances:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -204,6 +205,18 @@ def test_the_more_pairs_the_more_it_takes():
         probability += [p for i, j, p, _ in same_wrong_numbers(of_keys(given, keys)) if (i, j) == (0, 1)]
     # Of five 2 are wrong, one pair; of three hundred 297.
     assert probability[1] / probability[0] == pytest.approx(297 * 296 / 2)
+
+
+def test_a_copy_takes_over_half_of_the_wrong_numbers():
+    keys = keys_of(5)
+    given = by_hand(keys)
+    given[0] = [91.37, 92.41, 93.59, 94.13, 95.77, 96.29]
+    given[1] = [91.37, 92.41, 93.59, 94.13, 95.77, 17.31]
+    numbers = of_keys(given, keys)
+    *same, other = chance(numbers, 0, np.array([1]))[0].tolist()
+    [(i, j, probability, agreeing)] = same_wrong_numbers(numbers)
+    assert (i, j, agreeing.tolist()) == (0, 1, [True] * 5 + [False])
+    assert probability == pytest.approx(math.prod(same) / 0.5**5 * (1 - other) / 0.5)
 
 
 def test_left_out_and_absurd_numbers_name_nobody():
