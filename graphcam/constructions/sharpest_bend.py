@@ -107,13 +107,18 @@ def steps_along(inverted: Inverted, stretches: Sequence[Stretch], points: Points
         rows.append(np.stack([first + middle, np.full_like(middle, apart), np.minimum(middle, last - middle)]))
         first += stretch.count
     middle, apart, room = np.concatenate(rows, axis=-1)
-    step = np.broadcast_to(apart, (*points.shape[:-1], apart.size))
-    while True:
-        at = np.stack([middle - step, middle + 0 * step, middle + step], axis=-1)
-        wider = np.isnan(centres_of(inverted, points_at(points, at))) & (2 * step <= room)
-        if not wider.any():
-            return at
-        step = np.where(wider, 2 * step, step)
+    step = np.array(np.broadcast_to(apart, (*points.shape[:-1], apart.size)))
+    sides = np.array([-1, 0, 1])
+    # At first the places of all hands have the same numbers; afterwards only those are looked at that were too near.
+    unreadable = np.isnan(centres_of(inverted, points[..., middle[:, None] + apart[:, None] * sides]))
+    wider = np.nonzero(unreadable & (2 * step <= room))
+    while wider[-1].size:
+        step[wider] *= 2
+        *hands, of = (axis[:, None] for axis in wider)
+        triples = points[(*hands, middle[of] + step[wider][:, None] * sides)]
+        still = np.isnan(centres_of(inverted, triples)) & (2 * step[wider] <= room[wider[-1]])
+        wider = tuple(axis[still] for axis in wider)
+    return middle[:, None] + step[..., None] * sides
 
 
 INSTANT_ANGLE = math.radians(5)

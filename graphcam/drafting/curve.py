@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
@@ -11,8 +12,11 @@ from graphcam.plane_vectors import cross, dot
 
 PLACE_DECIMALS = 6
 """Places that differ by less [decimals of mm] are one."""
-HALVINGS = 50
-"""So often a chord of a curve is halved to find where a line meets it."""
+BLENDING = np.array([[0.0, 1.0, 0.0, 0.0], [-0.5, 0.0, 0.5, 0.0], [1.0, -2.5, 2.0, -0.5], [-0.5, 1.5, -1.5, 0.5]])
+"""The parabolas through the first and the last three of four points, blended between the middle ones: what each point
+gives to the powers 0 to 3 of the fraction of that part."""
+MAX_SECANTS, SAME_SHARE = 50, 2.0**-50
+"""So many secants at most are drawn to find where a line meets a part, until two meet it at the same share of it."""
 
 Distances = NDArray[np.floating[Any]]
 Reach = Callable[[Points], tuple[Distances, Distances]]
@@ -114,8 +118,10 @@ def faired_line(points: Points, between: int = 8) -> Points:
     """
     if points.shape[-1] < 3:
         return points
-    t: Points = np.arange(between) / between + 0j
-    blended = _blended(_neighbours(points)[..., None, :], t)
+    # One product of real matrices: x and y of four points by their shares in the places.
+    powers = np.vander(np.arange(between) / between, 4, increasing=True)
+    shares = np.kron((powers @ BLENDING).T, np.eye(2))
+    blended = (_neighbours(points).view(np.float64) @ shares).view(np.complex128)
     line: list[Points] = [blended.reshape(*points.shape[:-1], -1), points[..., -1:]]
     return np.concatenate(line, axis=-1)
 
@@ -129,14 +135,6 @@ def _neighbours(points: Points) -> Points:
     after = 3 * points[..., -1:] - 3 * points[..., -2:-1] + points[..., -3:-2]
     p = np.concatenate([before, points, after], axis=-1)
     return np.stack([p[..., :-3], p[..., 1:-2], p[..., 2:-1], p[..., 3:]], axis=-1)
-
-
-def _blended(four: Points, t: Points | NDArray[np.float64]) -> Points:
-    """The places at fractions t of parts by their four points (..., 4): the two parabolas, blended into one another."""
-    a, b, c, d = np.moveaxis(four, -1, 0)
-    first = b + t * (c - a) / 2 + t * t * (a - 2 * b + c) / 2
-    second = b + t * (4 * c - 3 * b - d) / 2 + t * t * (b - 2 * c + d) / 2
-    return (1 - t) * first + t * second
 
 
 def along_rays(start: Points, way: Points) -> Reach:
@@ -184,13 +182,32 @@ def meeting(points: Points, pieces: Sequence[slice], reach: Reach) -> tuple[Poin
     best = np.argmax(np.where(np.isnan(out), -np.inf, out), axis=-1)[..., None]
     met = np.isfinite(np.take_along_axis(out, best, -1)[..., 0])
     four = np.take_along_axis(np.broadcast_to(parts, (*out.shape, 4)), best[..., None], -2)
-    begin = np.take_along_axis(before, best, -1)
-    low, high = np.zeros(begin.shape), np.ones(begin.shape)
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        beyond = reach(_blended(four, middle))[0] * begin <= 0
-        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
-    a, b, c, d = np.moveaxis(four, -1, 0)
-    along = (c - a) / 2 + low * (2 * a - 5 * b + 4 * c - d) + low**2 * 1.5 * (3 * b - a - 3 * c + d)
-    places, ways = _blended(four, low)[..., 0], along[..., 0]
+    cubic = np.moveaxis(four @ BLENDING.T, -1, 0)
+    begin, end = np.take_along_axis(before, best, -1), np.take_along_axis(after, best, -1)
+    share = _first_zero(lambda t: reach(polyval(t, cubic, tensor=False))[0], begin, end)
+    places = polyval(share, cubic, tensor=False)[..., 0]
+    ways = polyval(share, polyder(cubic), tensor=False)[..., 0]
     return np.where(met, places, np.nan), np.where(met, ways, np.nan)
+
+
+def _first_zero(height: Callable[[Distances], Distances], begin: Distances, end: Distances) -> Distances:
+    """Where heights change their sign between 0 and 1, by secants of which neither end stays (M. Dowell, P. Jarratt
+    1971); ``begin`` and ``end`` are the heights there."""
+    low, high = np.zeros(begin.shape), np.ones(begin.shape)
+    bottom, top, before = begin, end, np.zeros(begin.shape)
+    share, goes_on = low, begin * end <= 0
+    for _ in range(MAX_SECANTS):
+        with np.errstate(invalid="ignore", divide="ignore"):
+            t = np.where(top == bottom, low, high - top * (high - low) / (top - bottom))
+        # Where it comes to rest it stays, whatever lines are looked at with it.
+        share, goes_on = np.where(goes_on, t, share), goes_on & (np.abs(t - share) > SAME_SHARE)
+        if not goes_on.any():
+            break
+        there = height(share)
+        side = np.where(there * top > 0, 1, -1)
+        low, high = np.where(side < 0, t, low), np.where(side > 0, t, high)
+        # An end that stays twice counts half.
+        halved = np.where(side == before, 0.5, 1.0)
+        bottom, top = np.where(side < 0, there, halved * bottom), np.where(side > 0, there, halved * top)
+        before = side
+    return share

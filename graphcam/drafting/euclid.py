@@ -118,7 +118,13 @@ def centre_of_circle(a: Points, b: Points, c: Points) -> Points:
     >>> complex(centre_of_circle(at(2 + 0j), at(1 + 1j), at(0j)))
     (1+0j)
     """
-    return readable_crossing(*perpendicular_bisector(a, b), *perpendicular_bisector(b, c))
+    # As by readable_crossing of the perpendicular bisectors; both are turned by a right angle, so the chords tell all.
+    u, v = b - a, c - b
+    turn = cross(u, v)
+    readable = np.abs(turn) >= math.sin(READABLE_CROSSING) * np.abs(u) * np.abs(v)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        along = dot(u + v, v) / (2 * turn)
+    return np.where(readable, (a + b) / 2 + UP * u * along, NOWHERE)
 
 
 def tangent_of_circle(a: Points, b: Points, c: Points) -> Points:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -27,8 +28,6 @@ from graphcam.exercises.marking.copy_detection import (
 )
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.reports.report_files import GroupNotes, copies_table, write_reports
-
-pytestmark = pytest.mark.slow
 
 NAME, STUDENTS = "acceleration-and-scales", 12
 
@@ -64,6 +63,7 @@ def by_hand(keys: np.ndarray, seed: int = 1) -> np.ndarray:
     return np.round(keys + 0.3 * np.random.default_rng(seed).standard_normal(keys.shape), 1)
 
 
+@pytest.mark.slow
 def test_who_handed_in_anothers_variant_is_named_with_its_owner():
     course = honest()
     records = [each[0] for each in course.careful]
@@ -77,6 +77,7 @@ def test_who_handed_in_anothers_variant_is_named_with_its_owner():
     assert set(found[0].answers) <= wrong
 
 
+@pytest.mark.slow
 def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tmp_path: Path):
     course = honest()
     records = [each[0] for each in course.careful]
@@ -96,6 +97,7 @@ def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tm
     assert ["fit the other" in page for page in pages] == [False, True]
 
 
+@pytest.mark.slow
 def test_wrong_numbers_taken_over_are_named_once():
     course = honest()
     records = [each[0] for each in course.careful]
@@ -106,6 +108,7 @@ def test_wrong_numbers_taken_over_are_named_once():
     assert [(pair.student, pair.other, pair.kind) for pair in found] == [("student 3", "student 7", "wrong numbers")]
 
 
+@pytest.mark.slow
 def test_nobody_is_compared_with_who_has_no_key_and_one_alone_with_nobody():
     course = honest()
     record = course.careful[0][0]
@@ -204,6 +207,18 @@ def test_the_more_pairs_the_more_it_takes():
     assert probability[1] / probability[0] == pytest.approx(297 * 296 / 2)
 
 
+def test_a_copy_takes_over_half_of_the_wrong_numbers():
+    keys = keys_of(5)
+    given = by_hand(keys)
+    given[0] = [91.37, 92.41, 93.59, 94.13, 95.77, 96.29]
+    given[1] = [91.37, 92.41, 93.59, 94.13, 95.77, 17.31]
+    numbers = of_keys(given, keys)
+    *same, other = chance(numbers, 0, np.array([1]))[0].tolist()
+    [(i, j, probability, agreeing)] = same_wrong_numbers(numbers)
+    assert (i, j, agreeing.tolist()) == (0, 1, [True] * 5 + [False])
+    assert probability == pytest.approx(math.prod(same) / 0.5**5 * (1 - other) / 0.5)
+
+
 def test_left_out_and_absurd_numbers_name_nobody():
     keys = keys_of(20)
     given = by_hand(keys)
@@ -229,6 +244,7 @@ def test_the_table_of_pairs_is_safe_and_whole():
     ]
 
 
+@pytest.mark.slow
 @over_all("name", [NAME, "whole-cam"])
 @over_seeds(1)
 def test_honest_courses_name_nobody(name: str, seed: int):

@@ -184,7 +184,7 @@ class Exercise:
     axes: tuple[Diagram, ...] = ()
     sheet: Mapping[str, int] = field(default_factory=dict[str, int])
     hand: HandTable = field(default_factory=HandTable)
-    careful: float = 0.03
+    careful: float = 0.02
     # Its table in the file has a name that is taken here.
     policy: MarksPolicy = field(default_factory=MarksPolicy, metadata={"alias": "marks"})
     papers: tuple[str, ...] = ()

@@ -3,6 +3,8 @@
 Parameters are drawn until every catalogued mistake can be told, and until no one number is right in most answers.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from graphcam.errors import GraphcamError
@@ -18,6 +20,7 @@ from graphcam.exercises.key.coinciding_answers import (
     by_one_number,
     guessed_radii,
 )
+from graphcam.exercises.key.expected_answers import Expected
 from graphcam.exercises.key.mistake_separation import (
     CAREFUL_WORK,
     MistakeError,
@@ -34,7 +37,7 @@ from graphcam.exercises.key.mistake_separation import (
 )
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.refused_draws import RefusalReason, Refusals, RefusedDraw, of_pairs
-from graphcam.exercises.key.unlisted_mistakes import none_keeps_all_marks, unlisted_outcomes
+from graphcam.exercises.key.unlisted_mistakes import too_many_kept
 
 HAND_COUNT = 2000
 """Careful hands behind the tolerances."""
@@ -42,6 +45,8 @@ LOSS_RATE_MARGIN = 0.8
 """The bound is set for this part of the permitted rate of losses: a rate from finitely many hands is uncertain."""
 MAX_DRAWS = 400
 """Draws after which an exercise is held to have no variant that can be diagnosed."""
+SAME_RADIUS = 1e-9
+"""Radii that differ by less are the same [mm]."""
 
 
 def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
@@ -80,13 +85,10 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
     # Not by their standard deviation, which rounding keeps from nought.
     by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
     if names := guessed_radii(exercise, keys, tolerances, variant.task.cam.prime_radius):
-        return RefusedDraw(tuple(RefusalReason("copied", name, "cam.prime_radius") for name in names), drawings={})
-    if (
-        not none_keeps_all_marks(exercise, drawn, keys, bound)
-        and (outcomes := unlisted_outcomes(exercise, drawn, keys, bound)).too_many
-    ):
-        reasons = tuple(RefusalReason("unlisted", name, CAREFUL_WORK) for name in outcomes.kept)
-        wrongly = {name: misconception(name).change(drawn.right) for name in outcomes.kept}
+        return _copied(names)
+    if names := too_many_kept(exercise, drawn, keys, bound):
+        reasons = tuple(RefusalReason("unlisted", name, CAREFUL_WORK) for name in names)
+        wrongly = {name: misconception(name).change(drawn.right) for name in names}
         return RefusedDraw(reasons, reasons, chains | wrongly)
     rows = zip(exercise.answers, keys, tolerances, drawn.lengths, by_hand, strict=True)
     return AnswerKey(
@@ -98,6 +100,11 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
         alike=not_told,
         dependences=dependences(exercise, drawn.right, keys, bound, hands, drawn.lengths),
     )
+
+
+def _copied(names: Sequence[str]) -> RefusedDraw:
+    """A draw in which the prime radius of the text is right for other radii, whose names these are."""
+    return RefusedDraw(tuple(RefusalReason("copied", name, "cam.prime_radius") for name in names), drawings={})
 
 
 def _drawn_or_refused(variant: Variant) -> PerfectHands | RefusedDraw:
@@ -116,6 +123,10 @@ def _drawn_or_refused(variant: Variant) -> PerfectHands | RefusedDraw:
         return RefusedDraw(
             tuple(RefusalReason("nothing" if name == CAREFUL_WORK else "mistake", name) for name in names)
         )
+    # Where the answer is that radius itself, no hand need be asked how it scatters.
+    plain = [Expected(value, 0.0) for value in drawn.answers]
+    if names := guessed_radii(exercise, plain, [SAME_RADIUS] * len(plain), variant.task.cam.prime_radius):
+        return _copied(names)
     if pairs := forbidden(exercise, plainly_alike(exercise, drawn)):
         same = of_pairs(pair for pair in pairs if have_same_answers(drawn, *pair))
         return RefusedDraw(of_pairs(pairs), same, {CAREFUL_WORK: right, **drawn.wrong})

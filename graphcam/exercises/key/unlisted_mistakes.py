@@ -48,16 +48,19 @@ def unlisted_names(exercise: Exercise) -> list[str]:
     return [name for name in names if name not in exercise.misconceptions]
 
 
-def unlisted_answers(exercise: Exercise, chain: Chain, listed: Iterable[Drawn]) -> Iterator[tuple[str, Drawn]]:
+def unlisted_answers(
+    exercise: Exercise, chain: Chain, listed: Iterable[Drawn], names: Sequence[str] | None = None
+) -> Iterator[tuple[str, Drawn]]:
     """The names and the answers of the hands of a drawing with every mistake that its exercise does not list.
 
     Left out are what cannot be drawn here, and what is stroke by stroke the drawing with a mistake that is listed, such
     as another law where that is the law of the other phase.
 
     listed : the answers with each mistake that is
+    names : only of these; None for all
     """
     listed = list(listed)
-    for name in unlisted_names(exercise):
+    for name in unlisted_names(exercise) if names is None else names:
         try:
             answers = answers_of(exercise, misconception(name).change(chain))
         except GraphcamError:
@@ -86,16 +89,21 @@ class UnlistedOutcomes(NamedTuple):
 
 
 def unlisted_outcomes(
-    exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float
+    exercise: Exercise,
+    drawn: PerfectHands,
+    keys: Sequence[Expected],
+    bound: float,
+    names: Sequence[str] | None = None,
 ) -> UnlistedOutcomes:
     """What becomes of every mistake of the catalogue that the exercise does not list.
 
     keys, bound : of the answer key; an answer within so many pencil units is right
+    names : only of these; None for all
     """
     shown: list[str] = []
     kept: list[str] = []
     near: list[str] = []
-    for name, answers in unlisted_answers(exercise, drawn.right, drawn.wrong_answers.values()):
+    for name, answers in unlisted_answers(exercise, drawn.right, drawn.wrong_answers.values(), names):
         rows = list(zip(exercise.answers, drawn.answers, answers, drawn.lengths, strict=True))
         if not any(_is_another(*row) for row in rows):
             continue
@@ -108,22 +116,28 @@ def unlisted_outcomes(
     return UnlistedOutcomes(tuple(shown), tuple(kept), tuple(near))
 
 
-def none_keeps_all_marks(exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float) -> bool:
-    """Whether every mistake not listed loses a mark or changes no answer: each is drawn to its first wrong answer."""
-    rows = list(zip(exercise.answers, keys, drawn.answers, drawn.lengths, strict=True))
+def too_many_kept(exercise: Exercise, drawn: PerfectHands, keys: Sequence[Expected], bound: float) -> tuple[str, ...]:
+    """The mistakes not listed that keep all marks, where they are more than may; none where they are not.
+
+    Each is drawn to its first wrong answer; all answers of all are drawn only where their number decides.
+    """
+    all_right: list[str] = []
+    wrong = 0
     for name in unlisted_names(exercise):
         try:
-            chain, is_another = misconception(name).change(drawn.right), False
-            for asked, key, right, length in rows:
-                if not _is_right(asked, key, answer := answer_of(chain, asked), bound):
-                    break
-                is_another |= _is_another(asked, right, answer, length)
-            else:
-                if is_another:
-                    return False
+            chain = misconception(name).change(drawn.right)
+            pairs = zip(exercise.answers, keys, strict=True)
+            is_right = all(_is_right(asked, key, answer_of(chain, asked), bound) for asked, key in pairs)
         except GraphcamError:
             continue
-    return True
+        wrong += not is_right
+        all_right += [name] * is_right
+    outcomes = unlisted_outcomes(exercise, drawn, keys, bound, all_right)
+    # No more than these show.
+    if not outcomes.kept or len(outcomes.kept) > MAX_KEPT_SHARE * (wrong + len(outcomes.shown)):
+        return outcomes.kept
+    every = unlisted_outcomes(exercise, drawn, keys, bound)
+    return every.kept if every.too_many else ()
 
 
 def _is_right(asked: AskedAnswer, key: Expected, answer: Any, bound: float) -> bool:
