@@ -19,10 +19,12 @@
 # **You need** notebooks 1 to 6. On paper: A1 or two sheets of A3. **Time:** this reading 40 minutes; the sheet an afternoon.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
+import numpy as np
 from IPython.display import Markdown
 
 import graphcam as gc
 from graphcam.notebooks import (
+    ArrayQuestion,
     Question,
     changed,
     compared,
@@ -52,6 +54,10 @@ from graphcam.report.documents import sheet_of
 # engineer adopts 44 mm, and from there on everything is drawn for 44 mm. Radii are rounded **up**, rollers **down**: always to the safe side.
 #
 # ## The sheet
+#
+# **Predict.** Write down your guess of $r_0$ and of the roller, in millimetres, for the task in `task.toml`, before you draw or look.
+#
+# **Draw it.** `graphcam solve task.toml --worksheet --out blank` prints the empty sheet, with axes and nothing else.
 
 # %%
 task = lesson_task("task.toml", "translating")
@@ -79,6 +85,34 @@ show_steps(solution.drawn["angle_diagram"], 2, within=solution)
 show_steps(solution.drawn["curvature"], 3, 4, within=solution)
 show_steps(solution.drawn["roller"], within=solution)
 show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
+
+# %% [markdown]
+# **Write it.** The decisions of many drawings at once: from arrays of proposed prime radii and radii of curvature compute the adopted radii, in whole
+# millimetres, and from *these* the rollers by the rule $\min(0.7\,\rho,\ 0.4\,r_0)$, in whole millimetres too. Two lines are enough.
+
+# %%
+proposed_radii = np.array([43.28, 51.02, 60.0, 38.7])  # mm
+curvature_radii = np.array([29.6, 25.1, 41.0, 12.9])  # mm
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+both = (np.ceil(proposed_radii), np.floor(np.minimum(0.7 * curvature_radii, 0.4 * np.ceil(proposed_radii))))
+decisions = ArrayQuestion(
+    both, 1e-9, "the table of the chain: which way is rounded, and which radius does the rule take?",
+    {"radii are rounded up, to the safe side": (np.floor(proposed_radii), both[1]), "rollers are rounded down": (both[0], both[1] + 1),
+     "the rule takes the smaller of the two": (both[0], np.floor(np.maximum(0.7 * curvature_radii, 0.4 * both[0])))},
+)
+
+# %% tags=["try-it"]
+your_decisions = None  # (prime radii, rollers), mm, from proposed_radii and curvature_radii
+decisions.check(your_decisions)
+
+# %% tags=["hide-input"]
+radii = np.ceil(proposed_radii)
+rollers = np.floor(np.minimum(0.7 * curvature_radii, 0.4 * radii))
+print("adopted:", radii, "rollers:", rollers)
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert decisions.check((radii, rollers)).status == "right"
 
 # %% [markdown]
 # ## Try it yourself

@@ -68,6 +68,7 @@ GOLDEN = {
         "rotation": "cw",
         "scale": "2:1",
     },
+    "given-cam-positions": {"ascent": 75, "base": 30, "lift": 14, "offset": 12, "roller": 13, "rotation": "cw"},
     "integration": {
         "back": 69,
         "dwell": 36,
@@ -172,6 +173,7 @@ ISSUED = {
     "curvature-and-roller": [0, 1, 2],
     "differentiation": [3, 0, 5],
     "given-cam": [0, 1, 0],
+    "given-cam-positions": [0, 0, 0],
     "integration": [6, 1, 3],
     "inversion-arm": [4, 0, 2],
     "inversion-translating": [1, 0, 7],
