@@ -87,32 +87,35 @@ show_steps(solution.drawn["roller"], within=solution)
 show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
 
 # %% [markdown]
-# **Write it.** The decisions of many drawings at once: from arrays of proposed prime radii and radii of curvature compute the adopted radii, in whole
-# millimetres, and from *these* the rollers by the rule $\min(0.7\,\rho,\ 0.4\,r_0)$, in whole millimetres too. Two lines are enough.
+# **Write it.** The decisions of many drawings at once: from arrays of proposed prime radii and radii of curvature compute the rollers, in whole millimetres, by the rule
+# $\min(0.7\,\rho,\ 0.4\,r_0)$ with the *adopted* radii, in whole millimetres too. Two lines are enough.
 
 # %%
-proposed_radii = np.array([43.28, 51.02, 60.0, 38.7])  # mm
-curvature_radii = np.array([29.6, 25.1, 41.0, 12.9])  # mm
+proposed_radii = np.array([43.28, 51.02, 60.0, 37.6])  # mm
+curvature_radii = np.array([29.6, 25.1, 41.0, 24.9])  # mm
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-both = (np.ceil(proposed_radii), np.floor(np.minimum(0.7 * curvature_radii, 0.4 * np.ceil(proposed_radii))))
-decisions = ArrayQuestion(
-    both, 1e-9, "the table of the chain: which way is rounded, and which radius does the rule take?",
-    {"radii are rounded up, to the safe side": (np.floor(proposed_radii), both[1]), "rollers are rounded down": (both[0], both[1] + 1),
-     "the rule takes the smaller of the two": (both[0], np.floor(np.maximum(0.7 * curvature_radii, 0.4 * both[0])))},
+adopted_radii = np.ceil(proposed_radii)
+rollers = np.floor(np.minimum(0.7 * curvature_radii, 0.4 * adopted_radii))
+many_rollers = ArrayQuestion(
+    rollers, 1e-9, "the table of the chain: which way is each rounded, and which radius does the rule take?",
+    {"rollers are rounded down": np.ceil(np.minimum(0.7 * curvature_radii, 0.4 * adopted_radii)),
+     "radii are rounded up, and the rule takes the adopted ones": np.floor(np.minimum(0.7 * curvature_radii, 0.4 * np.floor(proposed_radii))),
+     "the rule takes the smaller of the two": np.floor(np.maximum(0.7 * curvature_radii, 0.4 * adopted_radii))},
 )
 
 # %% tags=["try-it"]
-your_decisions = None  # (prime radii, rollers), mm, from proposed_radii and curvature_radii
-decisions.check(your_decisions)
+your_rollers = None  # mm, from proposed_radii and curvature_radii
+many_rollers.check(your_rollers)
 
 # %% tags=["hide-input"]
 radii = np.ceil(proposed_radii)
-rollers = np.floor(np.minimum(0.7 * curvature_radii, 0.4 * radii))
-print("adopted:", radii, "rollers:", rollers)
+drawn_rollers = np.floor(np.minimum(0.7 * curvature_radii, 0.4 * radii))
+print("adopted:", radii, "rollers:", drawn_rollers)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-assert decisions.check((radii, rollers)).status == "right"
+assert many_rollers.check(drawn_rollers).status == "right"
+assert many_rollers.check(np.floor(np.minimum(0.7 * curvature_radii, 0.4 * np.floor(proposed_radii)))).text.startswith("Not yet: radii are")
 
 # %% [markdown]
 # ## Try it yourself

@@ -93,7 +93,7 @@ def test_a_construction_is_predicted_drawn_written_and_compared(name):
     # What is printed half-done ends with a construction that the sheet has.
     own = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
     drawn = gc.solve(task_from(tomllib.loads(own[0])) if own else gc.builtin_task()).drawn
-    for upto in re.findall(r"--upto (\S+)", text):
+    for upto in re.findall(r"--upto ([\w.]*\w)", text):
         chapter, _, step = upto.partition(".")
         assert upto in drawn or int(step) < len(drawn[list(drawn)[int(chapter) - 1]].steps())
     lines = [cell.source for cell in cells if "hide-input" in cell.metadata.get("tags", ())]
