@@ -27,7 +27,7 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, changed, compared, show_steps, table
+from graphcam.notebooks import ArrayQuestion, Question, changed, compared, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -47,11 +47,61 @@ from graphcam.notebooks import Question, changed, compared, show_steps, table
 # ## The construction
 #
 # **Predict.** Where on a flank does the acceleration jump, and how often? Mark the places on a sketch of the profile before you look.
+#
+# **Draw it.** Write these lines into a file `arcs.toml`; `graphcam solve arcs.toml --upto 1.1 --out half` prints the sheet with the given points, and the arcs are yours.
+#
+# ```toml
+# [arcs]
+# A = [0, 40]
+# G = [22.24, 37.84]
+# D = [51.68, 18.81]
+# rho1 = 17
+# dwell = 40
+#
+# [follower]
+# kind = "translating"
+# roller_radius = 10
+# ```
 
 # %%
 task = gc.builtin_arcs_task()
 solution = gc.solve(task)
 show_steps(solution.drawn["three_arcs"], within=solution)
+
+# %% [markdown]
+# **Write it.** The points as complex numbers in mm, the cam centre at 0: compute the three centres. Twice a point is sought on a given line, equally far from two others: one
+# function of two lines does both. A place on the line from $P$ in the direction $u$, of length 1, is $P + t\,u$; it is as far from $Q$ as from $P$ for $t = |PQ|^2 / (2\,\mathrm{Re}(\bar u\,PQ))$.
+
+# %%
+A, G, D, rho1 = 40j, 22.24 + 37.84j, 51.68 + 18.81j, 17.0
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+drawn_centres = np.array([complex(solution.drawn["three_arcs"].readings[f"{name}_x"].value, solution.drawn["three_arcs"].readings[f"{name}_y"].value)
+                          for name in ("C1", "C2", "C3", "other_C3")])
+three_centres = ArrayQuestion(
+    drawn_centres[:3], 0.1, "the theorem: two centres and the point of contact on one line",
+    {"that is the other root: ρ₁ is laid off from G towards C₂": drawn_centres[[0, 1, 3]],
+     "C₁ lies inside of D, towards the cam centre": [2 * (51.68 + 18.81j) - drawn_centres[0], *drawn_centres[1:3]]},
+)
+
+# %% tags=["try-it"]
+your_centres = None  # [C1, C2, C3], mm, from A, G, D and rho1
+three_centres.check(your_centres)
+
+# %% tags=["hide-input"]
+def equally_far(start, way, other):
+    """The place on a line that is as far from its start as from another point."""
+    return start + way * abs(other - start) ** 2 / (2 * (way.conjugate() * (other - start)).real)
+
+
+C1 = D - rho1 * D / abs(D)
+C2 = equally_far(A, -1j, G)
+towards = (C2 - G) / abs(C2 - G)
+C3 = equally_far(G + rho1 * towards, towards, C1)
+print(f"C1 {C1:.2f}, C2 {C2:.2f}, C3 {C3:.2f}")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert three_centres.check([C1, C2, C3]).status == "right"
 
 # %% [markdown]
 # **Why two roots?** $\rho_1$ can be laid off from $G$ to either side. One root is a profile; in the other the arcs touch on the wrong side, and the profile would

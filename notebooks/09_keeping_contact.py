@@ -63,6 +63,11 @@ from graphcam.tasks.task import SpringTable
 # ## The construction
 #
 # The task of the course, from the file `task.toml`, at 400 rpm, with a mass of 0.5 kg and a spring of 3 N/mm.
+#
+# **Predict.** At which place of the turn is the spring too weak by most: where the follower is high, where it is low, or where $a$ is most negative? Mark it on your diagrams of notebook 2.
+#
+# **Draw it.** `graphcam solve task.toml --upto integration --out half` prints the sheet with all three diagrams. Over the axis of $s$ draw $c\,s$ and $-m\omega^2a$ at one scale of force, at every
+# station; the dividers find the place where the second is above the first by most.
 
 # %%
 speed, mass, stiffness = 400.0, 0.5, 3.0

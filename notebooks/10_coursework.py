@@ -19,10 +19,12 @@
 # **You need** notebooks 1 to 6. On paper: A1 or two sheets of A3. **Time:** this reading 40 minutes; the sheet an afternoon.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
+import numpy as np
 from IPython.display import Markdown
 
 import graphcam as gc
 from graphcam.notebooks import (
+    ArrayQuestion,
     Question,
     changed,
     compared,
@@ -52,6 +54,10 @@ from graphcam.report.documents import sheet_of
 # engineer adopts 44 mm, and from there on everything is drawn for 44 mm. Radii are rounded **up**, rollers **down**: always to the safe side.
 #
 # ## The sheet
+#
+# **Predict.** Write down your guess of $r_0$ and of the roller, in millimetres, for the task in `task.toml`, before you draw or look.
+#
+# **Draw it.** `graphcam solve task.toml --worksheet --out blank` prints the empty sheet, with axes and nothing else.
 
 # %%
 task = lesson_task("task.toml", "translating")
@@ -79,6 +85,37 @@ show_steps(solution.drawn["angle_diagram"], 2, within=solution)
 show_steps(solution.drawn["curvature"], 3, 4, within=solution)
 show_steps(solution.drawn["roller"], within=solution)
 show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
+
+# %% [markdown]
+# **Write it.** The decisions of many drawings at once: from arrays of proposed prime radii and radii of curvature compute the rollers, in whole millimetres, by the rule
+# $\min(0.7\,\rho,\ 0.4\,r_0)$ with the *adopted* radii, in whole millimetres too. Two lines are enough.
+
+# %%
+proposed_radii = np.array([43.28, 51.02, 60.0, 37.6])  # mm
+curvature_radii = np.array([29.6, 25.1, 41.0, 24.9])  # mm
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+adopted_radii = np.ceil(proposed_radii)
+rollers = np.floor(np.minimum(0.7 * curvature_radii, 0.4 * adopted_radii))
+many_rollers = ArrayQuestion(
+    rollers, 1e-9, "the table of the chain: which way is each rounded, and which radius does the rule take?",
+    {"rollers are rounded down": np.ceil(np.minimum(0.7 * curvature_radii, 0.4 * adopted_radii)),
+     "radii are rounded up, and the rule takes the adopted ones": np.floor(np.minimum(0.7 * curvature_radii, 0.4 * np.floor(proposed_radii))),
+     "the rule takes the smaller of the two": np.floor(np.maximum(0.7 * curvature_radii, 0.4 * adopted_radii))},
+)
+
+# %% tags=["try-it"]
+your_rollers = None  # mm, from proposed_radii and curvature_radii
+many_rollers.check(your_rollers)
+
+# %% tags=["hide-input"]
+radii = np.ceil(proposed_radii)
+drawn_rollers = np.floor(np.minimum(0.7 * curvature_radii, 0.4 * radii))
+print("adopted:", radii, "rollers:", drawn_rollers)
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert many_rollers.check(drawn_rollers).status == "right"
+assert many_rollers.check(np.floor(np.minimum(0.7 * curvature_radii, 0.4 * np.floor(proposed_radii)))).text.startswith("Not yet: radii are")
 
 # %% [markdown]
 # ## Try it yourself

@@ -28,7 +28,7 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, Slider, chart, explore, picture_of, table
+from graphcam.notebooks import ArrayQuestion, Question, Slider, chart, explore, picture_of, table
 
 # %% [markdown]
 # ## Background
@@ -41,6 +41,8 @@ from graphcam.notebooks import Question, Slider, chart, explore, picture_of, tab
 #
 # $$ m\,\ddot x + c\,(\dot x - \dot s) + k\,(x - s) = 0, \qquad f_n = \frac{1}{2\pi}\sqrt{\frac{k}{m}}, \qquad
 # n = \frac{T}{T_n} = T f_n . $$
+#
+# **Predict.** A mass rests on the train, and the cam's acceleration is switched on at once, from 0 to 4. How far does that of the mass go at most: to 4, to 6, to 8, or without end?
 #
 # $f_n$ is the natural frequency, and **one number** decides what happens: $n$, how many natural periods fit into the rise. The same machine at twice the speed has half the $n$.
 # The damping is small, 2 to 10 % of the critical one; we leave it out at first. The train is loaded by $m\ddot x$, so we look at the acceleration of the *mass*, not of the cam.
@@ -321,6 +323,43 @@ figure.tight_layout()
 picture_of(figure, "Two phase planes. Rectangular, 1.4 natural periods: an arc of 252 degrees about 16 mm to the right, one of 252 degrees about 16 mm to the left, and the end of the path 41.9 mm from the origin. "
            "Cycloidal, 3.5 natural periods: a path of 24 arcs that winds about the moving centres and ends 14.6 mm from the origin.",
            "Phase planes at 0.25 h/T² to the millimetre; crosses are centres, red is what is left")
+
+# %% [markdown]
+# **Write it.** The point of the mass as a complex number: in every part it turns about the part's centre. Compute where it is after every part of a cycloidal rise of 3.5 natural periods in
+# 28 parts, in $h/T^2$. A turn clockwise by the angle $\beta$ is a product with $e^{-i\beta}$; a loop of one line is enough.
+
+# %%
+periods_in_rise = 3.5
+middle_accelerations = gc.law("cycloidal")((np.arange(28) + 0.5) / 28)[2]
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def path(turn):
+    """Where the mass is after every part, if it turns so far in each [rad]."""
+    found = [0j]
+    for middle in middle_accelerations:
+        found.append(middle + (found[-1] - middle) * np.exp(1j * turn))
+    return found[1:]
+
+
+mass_path = ArrayQuestion(
+    path(-tau * periods_in_rise / 28), 1e-9, "step 2: the radius from the centre of the part to the point is turned",
+    {"it turns clockwise": path(tau * periods_in_rise / 28), "n periods in the whole rise: the angle of a part is 2π n/28": path(-tau * periods_in_rise)},
+)
+
+# %% tags=["try-it"]
+your_path = None  # h/T², complex, one for each part, from middle_accelerations and periods_in_rise
+mass_path.check(your_path)
+
+# %% tags=["hide-input"]
+place, after_parts, turned = 0j, [], np.exp(-2j * np.pi * periods_in_rise / 28)
+for middle in middle_accelerations:
+    place = middle + (place - middle) * turned
+    after_parts.append(place)
+print(f"in the dwell {abs(place):.2f} h/T²")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert mass_path.check(after_parts).status == "right"
+assert abs(abs(place) - float(phase_plane("cycloidal", 3.5, 28, 0.25)[2].value)) < 1e-9
 
 # %% [markdown]
 # For the rectangular law two arcs are the whole drawing, and it is exact. For the cycloidal law each part has one constant acceleration instead of the curve:

@@ -48,10 +48,28 @@ print(f"nose radius {cam.nose_radius:.3f} mm; by the formula {(28 - 43 * c) / (1
 assert abs(cam.nose_radius - (28 - 43 * c) / (1 - c)) < 1e-12
 
 # %% [markdown]
-# **Predict** before you draw: the roller's centre runs on the pitch curve, 16 mm outside of the cam. At which place of the rise does the acceleration change its sign: early on the flank, where the flank ends, or at the nose?
+# **Predict.** The roller's centre runs on the pitch curve, 16 mm outside of the cam. At which place of the rise does the acceleration change its sign: early on the flank, where the flank ends, or at the nose?
 
 # %% [markdown]
 # ## The construction
+#
+# **Draw it.** Write these lines into a file `given.toml`; `graphcam solve given.toml --upto 2.1 --out half` prints the sheet with the outline, and all else is yours.
+#
+# ```toml
+# rotation = "ccw"
+# speed_rpm = 600
+#
+# [arcs]
+# base_radius = 28
+# flank_radius = "straight"
+# lift = 15
+# ascent = 70
+#
+# [follower]
+# kind = "translating"
+# offset = 0
+# roller_radius = 16
+# ```
 
 # %%
 task = task_from({

@@ -39,7 +39,7 @@ def arm_analysis(givens: AnalysisGivens, arm: float, pencil: Pencil) -> Analysis
     cam_analysis.read_lift(hand, givens, s, 1.0)
     motion = hand.perpendicular("motion", arms.turned(-1), places)
     cam_analysis.measure_angles(hand, givens, motion, places, s, 1, on_joints, angles)
-    return hand.finished(givens, _draw, {"starts": starts, "places": places})
+    return hand.finished(givens, _draw, {"starts": starts, "places": places, "pitch": points})
 
 
 def _on_joints(

@@ -37,7 +37,7 @@ def stem_analysis(givens: AnalysisGivens, pencil: Pencil) -> Analysis:
     angles = cam_analysis.measure_phases(hand, givens, s, base, rays)
     cam_analysis.read_lift(hand, givens, s, mu_l)
     cam_analysis.measure_angles(hand, givens, motion, places, s, sense(givens.rotation), on_joints, angles)
-    return hand.finished(givens, _draw, {"starts": starts, "places": places})
+    return hand.finished(givens, _draw, {"starts": starts, "places": places, "pitch": points})
 
 
 def _on_joints(hand: Hand, givens: AnalysisGivens, points: Drawn) -> tuple[Drawn, Drawn] | tuple[None, None]:

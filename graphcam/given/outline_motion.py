@@ -11,7 +11,8 @@ and an arm of the length l about a pivot at c at the angle psi, where w = c - C 
     Re(w exp(i psi)) = (|w|^2 + l^2 - R^2)/(2 l).
 
 On a straight part with the outward normal n, at the distance p from the cam centre, e Re n + y Im n = p; and for an arm
-w = l n and the right side c Re n - p.  Under a flat face y = Im C + R.  Each is differentiated three times.
+w = l n and the right side c Re n - p.  Under a flat face y = Im C + R; one that swings at the offset f about a pivot at
+c, where w = -i (c - C), has the right side R + f.  Each is differentiated three times.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from graphcam.errors import DesignError, check_kind
 from graphcam.given.arc_loop import ArcLoop
 from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
 from graphcam.given.extreme_search import SmoothPieces
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, OscillatingFlat, Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise, wrap
 from graphcam.given.motion_law import Law
@@ -39,9 +40,10 @@ from graphcam.given.point_outline import (
     PointOutline,
     Trace,
     TracedMotion,
+    check_pivot,
+    swinging_face_angle,
     trace,
     traced_motion,
-    unfit_follower,
 )
 from graphcam.words import say
 
@@ -111,8 +113,8 @@ def outline_motion(
     The first turns so that its flank OA comes first, and its motion is exact, arc by arc.  The second lies at the cam
     angle 0 as its points are given; its motion is that of :func:`measured_motion` through 720 rows.
 
-    follower : a :class:`~graphcam.Translating`, an :class:`~graphcam.Oscillating` with its distance, or a
-        :class:`~graphcam.FlatFaced`
+    follower : a :class:`~graphcam.Translating`, an :class:`~graphcam.Oscillating` with its distance, a
+        :class:`~graphcam.FlatFaced`, or an :class:`~graphcam.OscillatingFlat`
     tolerance : of a cam through points, how far the trace point may be from a row [mm]; None is 0.01
 
     Raises
@@ -155,7 +157,8 @@ class _Track(NamedTuple):
 
     arcs : with radii and points of the trace point, turned to where they lie at phi = 0
     turned : by what the outline is turned to lie there
-    position : where the trace point is at a distance from the cam centre; of a flat face the direction of its normal
+    position : where the trace point is at a distance from the cam centre; of a flat face the direction of its normal,
+        where it touches a part whose tangent is so far from the cam centre
     stand : (arc, phi) to s and its derivatives
     by_normal : whether a part begins where its normal, and not its first point, lies as ``position`` tells
     """
@@ -172,7 +175,7 @@ class _Track(NamedTuple):
 @singledispatch
 def _track(follower: Follower, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
     """How a follower stands on the arcs: the one place that asks which it is."""
-    raise unfit_follower()
+    raise TypeError(type(follower))
 
 
 @_track.register
@@ -207,12 +210,7 @@ def _by_trace(
 
 @_track.register
 def _(follower: FlatFaced, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
-    sharpest = min(outline.arcs(sigma), key=lambda arc: 1 / arc.radius)
-    if not 0 < sharpest.radius < math.inf:
-        limit, remedy = say("rounded outwards under a flat face"), say("take a roller, or a flank of a large radius")
-        found = say("straight") if sharpest.radius > 0 else say("hollow")
-        raise DesignError("outline" if isinstance(outline, ArcLoop) else "flank_radius", found, limit, remedy)
-    base, turned = outline.base_radius, 1j / _seen(outline.arcs(sigma)[0].outward, sigma)
+    base = outline.base_radius
 
     def stand(arc: OutlineArc, phi: Floats) -> Values:
         y, y1, y2, y3 = (turned.imag for turned in _turning(arc.centre, phi, sigma))
@@ -221,7 +219,46 @@ def _(follower: FlatFaced, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
     def upwards(_: float) -> complex:
         return 1j
 
-    return _Track(_for_roller(outline, 0.0, turned, sigma), turned, sigma, base, upwards, stand, by_normal=True)
+    return _by_face(outline, sigma, upwards, stand)
+
+
+@_track.register
+def _(follower: OscillatingFlat, outline: ArcOutline | ArcLoop, sigma: int) -> _Track:
+    c, f = follower.distance, follower.face_offset
+    lowest = float(swinging_face_angle(follower, outline.base_radius))
+
+    def stand(arc: OutlineArc, phi: Floats) -> Values:
+        z, z1, z2, z3 = _turning(arc.centre, phi, sigma)
+        w = [-1j * (c - z), 1j * z1, 1j * z2, 1j * z3]
+        check_pivot(c, beyond=bool(np.all(abs(arc.radius + f) < np.abs(w[0]))))
+        return _turned_until(w, [arc.radius + f, 0.0, 0.0, 0.0], -1.0, lowest)
+
+    def normal(support: float) -> complex:
+        return complex(1j * np.exp(-1j * swinging_face_angle(follower, support)))
+
+    return _by_face(outline, sigma, normal, stand)
+
+
+def _by_face(
+    outline: ArcOutline | ArcLoop,
+    sigma: int,
+    normal: Callable[[float], complex],
+    stand: Callable[[OutlineArc, Floats], Values],
+) -> _Track:
+    sharpest = min(outline.arcs(sigma), key=lambda arc: 1 / arc.radius)
+    if not 0 < sharpest.radius < math.inf:
+        limit, remedy = say("rounded outwards under a flat face"), say("take a roller, or a flank of a large radius")
+        found = say("straight") if sharpest.radius > 0 else say("hollow")
+        raise DesignError("outline" if isinstance(outline, ArcLoop) else "flank_radius", found, limit, remedy)
+    first = outline.arcs(sigma)[0]
+    turned = normal(_support(first)) / _seen(first.outward, sigma)
+    arcs = _for_roller(outline, 0.0, turned, sigma)
+    return _Track(arcs, turned, sigma, outline.base_radius, normal, stand, by_normal=True)
+
+
+def _support(arc: OutlineArc) -> float:
+    """How far the tangent at the beginning of a part is from the cam centre [mm]."""
+    return (arc.point * arc.outward.conjugate()).real
 
 
 def _for_roller(outline: ArcOutline | ArcLoop, roller: float, turned: complex, sigma: int) -> list[OutlineArc]:
@@ -259,7 +296,7 @@ def _turning(z: complex, phi: Floats, sigma: int) -> list[Complexes]:
 def _on_guide(arc: OutlineArc, phi: Floats, sigma: int, e: float, lowest: float) -> Values:
     if math.isinf(arc.radius):
         n, n1, n2, n3 = _turning(arc.normal, phi, sigma)
-        p = (arc.point * arc.outward.conjugate()).real
+        p = _support(arc)
         y = (p - e * n.real) / n.imag
         y1 = (-e * n1.real - y * n1.imag) / n.imag
         y2 = (-e * n2.real - 2 * y1 * n1.imag - y * n2.imag) / n.imag
@@ -276,19 +313,26 @@ def _on_guide(arc: OutlineArc, phi: Floats, sigma: int, e: float, lowest: float)
 
 def _on_arm(arc: OutlineArc, phi: Floats, sigma: int, distance: float, arm: float, start: float) -> Values:
     if math.isinf(arc.radius):
-        p = (arc.point * arc.outward.conjugate()).real
-        w, w1, w2, w3 = (arm * n for n in _turning(arc.normal, phi, sigma))
-        right = [distance / arm * z.real for z in (w, w1, w2, w3)]
-        right[0] = right[0] - p
+        w = [arm * n for n in _turning(arc.normal, phi, sigma)]
+        right = [distance / arm * z.real for z in w]
+        right[0] = right[0] - _support(arc)
     else:
         c, c1, c2, c3 = _turning(arc.centre, phi, sigma)
-        w, w1, w2, w3 = distance - c, -c1, -c2, -c3
+        w = [distance - c, -c1, -c2, -c3]
         # |w|^2 = distance^2 + |C|^2 - 2 distance Re C
         square = distance * distance + abs(arc.centre) ** 2 + arm * arm - arc.radius * arc.radius
         right = [-distance * z.real / arm for z in (c, c1, c2, c3)]
         right[0] = right[0] + square / (2 * arm)
-    beyond = np.arccos(right[0] / np.abs(w))
-    psi = np.angle(np.exp(1j * (np.sign(arc.radius) * beyond - np.angle(w))))
+    return _turned_until(w, right, float(np.sign(arc.radius)), start)
+
+
+def _turned_until(way: Sequence[Complexes], right: Sequence[Any], side: float, start: float) -> Values:
+    """The angle psi beyond its start, and its derivatives by phi, for which Re(w exp(i psi)) is the right side.
+
+    way, right : w and the right side, each with its first three derivatives;  side : 1 or -1, of two such angles
+    """
+    w, w1, w2, w3 = way
+    psi = np.angle(np.exp(1j * (side * np.arccos(right[0] / np.abs(w)) - np.angle(w))))
     turn = np.exp(1j * psi)
     lever = (w * turn).imag
     psi1 = ((w1 * turn).real - right[1]) / lever
@@ -305,8 +349,8 @@ def _edges(track: _Track) -> list[float]:
     """The cam angles [rad] at which the parts begin, and the end of the turn."""
     found: list[float] = []
     for arc in track.arcs:
-        seen = arc.outward if track.by_normal else arc.point
-        place = complex(track.position(abs(arc.point)))
+        seen, far = (arc.outward, _support(arc)) if track.by_normal else (arc.point, abs(arc.point))
+        place = complex(track.position(far))
         found.append(float(wrap(track.sigma * cmath.phase(place / seen))))
     found[0] = 0.0
     if not all(a < b for a, b in pairwise([*found, FULL_TURN])):

@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.b_splines import solve_banded
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, OscillatingFlat, Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.measured import DEFAULT_TOLERANCE, MeasuredMotion, RowError, measured_motion
 from graphcam.given.motion import FULL_TURN
@@ -76,13 +76,29 @@ def trace(follower: Follower, base_radius: float) -> Trace:
     >>> round(way.lowest, 4), complex(way.position(37.0)).real
     (35.0, 12.0)
     """
-    raise unfit_follower()
+    raise TypeError(type(follower))
 
 
-def unfit_follower() -> DesignError:
-    """The error for a follower of which it is not known what a given cam does to it."""
-    limit, remedy = say("a stem, an arm, or a flat face on a stem"), say("take another follower")
-    return DesignError("follower", say("a face that swings"), limit, remedy)
+def check_pivot(distance: float, *, beyond: bool) -> None:
+    """Check that the pivot of a face that swings lies beyond the reach of the cam."""
+    if not beyond:
+        limit = say("greater than the cam's outer radius and the face offset together")
+        raise DesignError(say("centre distance"), distance, limit, say("move the pivot away"))
+
+
+def swinging_face_angle(follower: OscillatingFlat, support: float | Floats) -> Floats:
+    """The angle psi [rad] between the line of centres and a face that is so far from the cam centre [mm].
+
+    Raises
+    ------
+    DesignError : the pivot is within reach of the cam
+
+    >>> round(math.degrees(swinging_face_angle(OscillatingFlat(distance=100, face_offset=10), 40.0)), 6)
+    30.0
+    """
+    together, c = np.asarray(support) + follower.face_offset, follower.distance
+    check_pivot(c, beyond=bool(np.all(np.abs(together) < c)))
+    return np.asarray(np.arcsin(together / c))
 
 
 @trace.register
@@ -369,6 +385,30 @@ def _(follower: FlatFaced, outline: PointOutline, sigma: int) -> Laying:
         normal = outline.outward(place)
         return Touching(sigma * np.angle(1j / normal), (outline(place)[0] * np.conj(normal)).real)
 
+    def radius_at(level: float) -> float:
+        return level
+
+    return _laid_face(outline, touching, radius_at, 1.0)
+
+
+@_laying.register
+def _(follower: OscillatingFlat, outline: PointOutline, sigma: int) -> Laying:
+    def touching(place: Floats) -> Touching:
+        normal = outline.outward(place)
+        psi = swinging_face_angle(follower, (outline(place)[0] * np.conj(normal)).real)
+        return Touching(sigma * np.angle(1j * np.exp(-1j * psi) / normal), psi)
+
+    def radius_at(level: float) -> float:
+        return follower.distance * math.sin(level) - follower.face_offset
+
+    return _laid_face(outline, touching, radius_at, follower.distance)
+
+
+def _laid_face(
+    outline: PointOutline, touching: Callable[[Floats], Touching], radius_at: Callable[[float], float], arm: float
+) -> Laying:
+    """How a flat face is laid against an outline that must be rounded outwards everywhere."""
+
     def gaps(places: Floats, held: Floats) -> Floats:
         faces = np.conj(outline.outward(held))
         heights = (outline(held)[0] * faces).real
@@ -378,10 +418,7 @@ def _(follower: FlatFaced, outline: PointOutline, sigma: int) -> Laying:
         limit, remedy = say("rounded outwards under a flat face"), say("take a roller")
         return DesignError(say("outline"), say("hollow at {angle}", angle=_at(outline, places)), limit, remedy)
 
-    def radius_at(level: float) -> float:
-        return level
-
-    return Laying(touching, radius_at, 1.0, gaps, too_hollow)
+    return Laying(touching, radius_at, arm, gaps, too_hollow)
 
 
 def _at(outline: PointOutline, places: Floats) -> Words:

@@ -57,7 +57,6 @@ GIVEN_CAM_KEYS = {
     "centre distance": "follower.distance",
     "base_radius": "arcs.base_radius",
     "flank_radius": "arcs.flank_radius",
-    "follower": "follower.kind",
     "tolerance": "motion.tolerance",
 }
 """The keys of what a follower of a given cam may lack, by their quantities."""
@@ -497,6 +496,10 @@ class Task:
         if self.follower.roller_radius is None:
             limit = say("given where the cam is given")
             raise DesignError("follower.roller_radius", say("missing"), limit, say("0 is a knife edge"))
+        if isinstance(self.follower, OscillatingFlatTable):
+            limit = say("a stem, an arm, or a flat face on a stem where a given cam is drawn")
+            remedy = say("take another follower, or in Python gc.outline_motion, which knows this one too")
+            raise DesignError("follower.kind", self.follower.kind, limit, remedy)
         object.__setattr__(self, "follower", self.follower.placed)
         object.__setattr__(motion, "follows", (self.follower(), self.rotation))
         try:

@@ -22,7 +22,8 @@ TITLE = (
 )
 TOPICS = {
     "acceleration-and-scales", "integration", "differentiation", "pressure-angle", "least-radius",
-    "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "given-cam", "whole-cam",
+    "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "given-cam",
+    "given-cam-positions", "whole-cam",
 }  # fmt: skip
 
 PLACE = re.compile(r"\{[a-z_0-9]+\}")

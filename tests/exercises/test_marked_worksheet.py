@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.course.course_making import make
-from graphcam.exercises.course.handouts import key_sheet
+from graphcam.exercises.course.handouts import instructions, key_sheet
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise, load_exercise
@@ -63,7 +63,7 @@ def test_the_tags_stand_apart_in_white(paper: str):
         assert all(box.right <= marked.seam - 4.3 or box.left >= marked.seam + 4.3 for box in quiet)
 
 
-@BOTH
+@pytest.mark.parametrize("name", [*NAMES, "given-cam-positions"])
 @EACH
 def test_all_stands_apart_and_nothing_black_in_a_room(name: str, paper: str):
     marked = MARKED_PAPERS[paper]
@@ -86,6 +86,15 @@ def test_all_stands_apart_and_nothing_black_in_a_room(name: str, paper: str):
                     assert any(room.grown(0.01).holds(box) for room in rooms)
                     assert entity.role == LIGHT_ROLES["colour"]
         assert set(printed.views) == set(page.origins)
+
+
+@BOTH
+@EACH
+def test_the_text_tells_at_which_ordinate_and_poles_the_key_is_drawn(name: str, paper: str):
+    one = variant(name, paper)
+    board, told = board_chain(one.task).board, instructions(one)
+    assert f"{board.ordinate:g} mm for the maximum ordinate" in told
+    assert f"H₁ = {board.poles[0]:g} mm and H₂ = {board.poles[1]:g} mm" in told
 
 
 @EACH

@@ -68,6 +68,7 @@ GOLDEN = {
         "rotation": "cw",
         "scale": "2:1",
     },
+    "given-cam-positions": {"ascent": 75, "base": 30, "lift": 14, "offset": 12, "roller": 13, "rotation": "cw"},
     "integration": {
         "back": 83,
         "dwell": 32,
@@ -172,6 +173,7 @@ ISSUED = {
     "curvature-and-roller": [1, 1, 4],
     "differentiation": [6, 1, 1],
     "given-cam": [0, 1, 0],
+    "given-cam-positions": [0, 0, 0],
     "integration": [8, 7, 3],
     "inversion-arm": [9, 0, 0],
     "inversion-translating": [2, 0, 2],

@@ -14,8 +14,8 @@ from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.sheets.model import Page
 
 FILES = (Path(__file__).parents[2] / "exercises").glob("*.toml")
-NAMES = sorted({file.stem for file in FILES} - {"differentiation"})
-"""The exercises; that of the differentiation gives all that its answers depend on as a curve."""
+NAMES = sorted({file.stem for file in FILES} - {"differentiation", "given-cam-positions"})
+"""The exercises; two give all that their answers depend on, as a curve or as a cam turned to where the roller is."""
 ANNA = Student("s1", "Anna")
 IN_THE_TEXT = {"law_up", "law_down", "limit_up", "limit_down", "factor", "roller", "pole", "pole_1", "pole_2"}
 IN_THE_TEXT |= {"pole_s", "pole_v"}

@@ -47,6 +47,11 @@ def highest(points, follower, base):
     """s of a follower that is laid on points from above."""
     if isinstance(follower, gc.FlatFaced):
         return points.imag.max() - base
+    if isinstance(follower, gc.OscillatingFlat):
+        # Every point holds the face at least so far from the line of centres.
+        away, f = follower.distance - points, follower.face_offset
+        least = np.arcsin(f / np.abs(away)) - np.angle(away)
+        return least.max() - math.asin((base + f) / follower.distance)
     r = follower.roller_radius
     if isinstance(follower, gc.Translating):
         beside = points.real - follower.offset
@@ -81,6 +86,8 @@ def random_cam(rng):
         "arm": gc.Oscillating(90.0, 90.0 * rng.uniform(0.9, 1.4), max(roller, 2.0)),
         "flat": gc.FlatFaced(),
     }[follower]
+    if follower == "flat" and rng.random() < 0.5:
+        built = gc.OscillatingFlat(rng.uniform(1.6, 3) * (base + lift), rng.uniform(-0.3, 0.3) * base)
     try:
         cam = gc.cam_by_radii(base, **sizes)
         rotation = str(rng.choice(["ccw", "cw"]))
@@ -102,6 +109,9 @@ def faults_of_case(seed):
     # Where the follower stands at phi = 0: on the start of the flank, or of an eccentric cam on its lowest place.
     if isinstance(follower, gc.FlatFaced):
         start = 1j
+    elif isinstance(follower, gc.OscillatingFlat):
+        psi = math.asin((cam.base_radius + follower.face_offset) / follower.distance)
+        start = 1j * np.exp(-1j * psi)
     elif isinstance(follower, gc.Translating):
         r0 = motion.prime_radius
         start = complex(follower.offset, math.sqrt(r0**2 - follower.offset**2)) / r0
@@ -118,7 +128,8 @@ def faults_of_case(seed):
         return faults
     for phi in rng.uniform(0, 2 * math.pi, 12):
         laid = highest(points * start * np.exp(1j * sigma * phi), follower, cam.base_radius)
-        miss = abs(laid - float(motion(phi)[0])) * (1.0 if laid > 1 or not isinstance(follower, gc.Oscillating) else 90)
+        swings = isinstance(follower, gc.Oscillating | gc.OscillatingFlat)
+        miss = abs(laid - float(motion(phi)[0])) * (1.0 if laid > 1 or not swings else 90)
         if miss > LAID_ON * cam.base_radius:
             faults.append(f"s at {math.degrees(phi):.3f} is off by {miss:.2e}")
     for k, phase in enumerate(motion.phases):
@@ -237,7 +248,12 @@ def test_what_is_no_cam_is_told(sizes, said):
         ({"base_radius": 28, "lift": 12}, gc.Translating(30), "offset"),
         ({"base_radius": 28, "lift": 12}, gc.Oscillating(80), "distance"),
         ({"base_radius": 28, "lift": 12}, gc.Oscillating(80, 200), "base_radius"),
-        ({"base_radius": 28, "lift": 12}, gc.OscillatingFlat(90), "follower"),
+        ({"base_radius": 28, "lift": 12}, gc.OscillatingFlat(39), "centre distance is 39, but must be greater than"),
+        (
+            {"base_radius": 28, "flank_radius": "straight", "lift": 15, "ascent": 1.2},
+            gc.OscillatingFlat(90),
+            "flank_radius is straight",
+        ),
         ({"base_radius": 10, "flank_radius": 100, "nose_radius": 1, "lift": 40}, gc.Oscillating(25, 30), "90 degrees"),
     ],
 )

@@ -23,8 +23,11 @@ ROUND = np.radians(np.arange(0, 360, 1.0))
 
 def points_of(cam, follower, rotation, count):
     """(count,) points at equal lengths along a cam by radii, as it lies at the cam angle 0."""
-    way = None if isinstance(follower, gc.FlatFaced) else trace(follower, cam.base_radius)
-    start = 1j if way is None else complex(way.position(way.prime_radius)) / way.prime_radius
+    if isinstance(follower, gc.OscillatingFlat):
+        start = 1j * np.exp(-1j * math.asin((cam.base_radius + follower.face_offset) / follower.distance))
+    else:
+        way = None if isinstance(follower, gc.FlatFaced) else trace(follower, cam.base_radius)
+        start = 1j if way is None else complex(way.position(way.prime_radius)) / way.prime_radius
     z = outline_points(cam)
     z = start * (z if rotation == "ccw" else z.conj())
     along = np.append(0, np.cumsum(np.abs(np.diff(z))))

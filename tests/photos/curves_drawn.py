@@ -72,8 +72,11 @@ def mistakes_of(course: Course, student: str) -> list[str]:
 
 def closed_line(chain: Chain, asked: AskedAnswer) -> Points:
     """The curve of the first hand (n,): faired through the stations, by the compasses along the dwells."""
-    stations, given = chain.board.stations, curve_of(chain, asked)[0]
     plotted = drawn_answer(chain, asked)[0]
+    if asked.construction == "analysis":
+        pieces = [faired_line(plotted[piece], between=BETWEEN) for piece in chain.analysis.givens.outline.pieces]
+        return np.concatenate([piece[:-1] for piece in pieces])
+    stations, given = chain.board.stations, curve_of(chain, asked)[0]
     found: list[Points] = []
     at = 0
     for k, span in enumerate(stations.phases):

@@ -12,6 +12,7 @@ import numpy as np
 from nuisances import PRINTERS
 from printer import RENDERERS, Print, printed
 
+from graphcam.constructions.views import ANALYSIS, PROFILE
 from graphcam.exercises.course.course_folder import PRINTED_FOLDER, STUDENTS_FOLDER, TEACHER_FOLDER, AnswerKeys
 from graphcam.exercises.course.course_making import make
 from graphcam.exercises.course.roster import folder_name
@@ -23,6 +24,10 @@ from graphcam.exercises.photographs.page_owner import PrintedSheets
 from graphcam.photo.printed_page import Ink, PrintedPage
 
 SECRET = b"the secret of the photographs"
+
+
+GIVEN_CAM = "given-cam-positions"
+"""The exercise in which the pitch curve is drawn about the outline of a cam, which is printed."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +42,12 @@ class CourseKind:
     @property
     def curve(self) -> bool:
         """Whether a curve is asked, or else plotted points."""
-        return self.exercise == "inversion-translating"
+        return self.exercise != "inversion-arm"
+
+    @property
+    def view(self) -> str:
+        """The view in which is drawn."""
+        return ANALYSIS.name if self.exercise == GIVEN_CAM else PROFILE.name
 
     @property
     def name(self) -> str:
@@ -53,6 +63,10 @@ KINDS = (
     CourseKind("inversion-arm", "A3", "colour"),
     CourseKind("inversion-arm", "A4", "grey"),
 )
+GIVEN_CAM_KINDS = tuple(
+    CourseKind(GIVEN_CAM, paper, ink) for paper, ink in (("A3", "colour"), ("A3", "grey"), ("A4", "colour"))
+)
+"""Of a trial of their own: ``python tests/photos/trial.py --given-cam``."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,10 +14,10 @@ from hand import by_hand, cross, dot, even, goes, hatching, ring, scribble, stra
 from nuisances import random_placing, random_shot
 from pencil import PENS, Leaf, Pen, Stroke
 from photograph import Shot, photographed
-from printed_courses import KINDS, Course, CourseKind, course_of
+from printed_courses import GIVEN_CAM, KINDS, Course, CourseKind, course_of
 from printer import PER_MM, Placing
 
-from graphcam.constructions.views import DISPLACEMENT, PROFILE
+from graphcam.constructions.views import DISPLACEMENT
 from graphcam.photo.printed_page import PrintedPage, PrintedView
 
 Rng = np.random.Generator
@@ -42,6 +42,8 @@ displacement curve, "too bad" a right drawing that nobody can read off its photo
 RIGHT = ("careful", "usual", "too bad")
 PLOTTED = ("marks", "rollers")
 """Kinds without a curve."""
+CURVES = tuple(kind for kind in KIND_SHARES if kind not in (*PLOTTED, "diagram"))
+"""Kinds with a curve about the origin, or with none where one is asked."""
 BAD = ("scribble", "half", "no dwells", "double", "foreign", "another's", "empty")
 WOBBLES = {"careful": (0.1, 0.2), "usual": (0.15, 0.3)}
 """Standard deviation of how far the line of a hand strays, mm."""
@@ -84,7 +86,7 @@ class Scene:
     @property
     def view(self) -> PrintedView:
         """The view in which is drawn."""
-        return self.page.views[_view_of(self.kind)]
+        return self.page.views[_view_of(self.kind, self.course)]
 
 
 def scene_of(number: int, seed: int, scratch: Path, kinds: tuple[CourseKind, ...] = KINDS, *, kind: str = "") -> Scene:
@@ -95,10 +97,12 @@ def scene_of(number: int, seed: int, scratch: Path, kinds: tuple[CourseKind, ...
     rng = np.random.default_rng([seed, number])
     drawn = str(rng.choice(list(KIND_SHARES), p=list(KIND_SHARES.values())))
     kind = kind or drawn
+    if kind not in CURVES and all(each.exercise == GIVEN_CAM for each in kinds):
+        kind = "careful"  # its worksheet asks for a curve alone, and has no diagram
     suited = [each for each in kinds if each.curve != (kind in PLOTTED)]
     course = course_of(suited[rng.integers(len(suited))], scratch)
     student = course.kind.students[rng.integers(len(course.kind.students))]
-    page_number, page = course.page(student, _view_of(kind))
+    page_number, page = course.page(student, _view_of(kind, course))
     print_, renderer = course.print_of(student, page_number, scratch)
     megapixels = int(rng.choice([12, 5, 0], p=[0.5, 0.3, 0.2]))
     bend = str(rng.choice(["flat", "curl", "fold"], p=[0.6, 0.2, 0.2])) if megapixels else "flat"
@@ -113,7 +117,7 @@ def scene_of(number: int, seed: int, scratch: Path, kinds: tuple[CourseKind, ...
     shot = random_shot((page.width, page.height), rng, megapixels, bend, **said)
     pen = str(rng.choice(list(PENS)))
     leaf = Leaf(print_, page.height, PER_MM, rng)
-    easel = _Easel(leaf, page.views[_view_of(kind)], placing, PENS[pen], rng)
+    easel = _Easel(leaf, page.views[_view_of(kind, course)], placing, PENS[pen], rng)
     truth = _drawn(easel, kind, course, student)
     jpeg = photographed(leaf.light, (page.width, page.height), PER_MM, shot, rng)
     return Scene(
@@ -121,8 +125,8 @@ def scene_of(number: int, seed: int, scratch: Path, kinds: tuple[CourseKind, ...
     )  # fmt: skip
 
 
-def _view_of(kind: str) -> str:
-    return DISPLACEMENT.name if kind == "diagram" else PROFILE.name
+def _view_of(kind: str, course: Course) -> str:
+    return DISPLACEMENT.name if kind == "diagram" else course.kind.view
 
 
 def _shaken(rng: Rng) -> Sensor:

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 import trial
 from figures import pooled, row, rows_of, table_of
+from measuring import measured
+from printed_courses import GIVEN_CAM, CourseKind
 from scenes import KIND_SHARES, scene_of
 from trial_goals import COURSES, SEED, check_goals, photographs, shared_scratch
 
@@ -24,6 +26,18 @@ def test_photographs_of_several_kinds(tmp_path_factory: pytest.TempPathFactory) 
     photos = photographs(SEVERAL, shared_scratch(tmp_path_factory))
     assert len({photo["kind"] for photo in photos}) == len(SEVERAL)
     check_goals(photos)
+
+
+GIVEN_CAMS = (CourseKind(GIVEN_CAM, "A3", "colour", ("17", "18")),)
+
+
+def test_the_pitch_curve_of_a_given_cam_is_read_beside_its_printed_outline(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    scratch, kinds = shared_scratch(tmp_path_factory), ("careful", "careful", "mistake", "half", "double")
+    scenes = [scene_of(number, SEED, scratch, GIVEN_CAMS, kind=kind) for number, kind in enumerate(kinds)]
+    assert all(set(scene.page.views) == {"analysis"} for scene in scenes)
+    check_goals([measured(scene, scratch) for scene in scenes])
 
 
 def test_a_photograph_is_told_by_its_number(tmp_path_factory: pytest.TempPathFactory) -> None:

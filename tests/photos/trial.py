@@ -28,6 +28,7 @@ import numpy as np
 import scipy
 from figures import rows_of, table_of
 from measuring import measured
+from printed_courses import GIVEN_CAM_KINDS, KINDS, CourseKind
 from scenes import scene_of
 from two_sheets import tiles_measured
 
@@ -44,22 +45,28 @@ SCRATCH = Path(__file__).parents[2] / "build" / "photos"
 """Where courses and prints are kept, some GB."""
 
 
-def photograph(number: int, seed: int, scratch: Path, kind: str = "") -> dict[str, Any]:
+def photograph(number: int, seed: int, scratch: Path, kinds: tuple[CourseKind, ...] = KINDS) -> dict[str, Any]:
     """What is found out by the photograph of a number."""
     cv2.setNumThreads(1)
     if number >= TWO_SHEETS:
         return tiles_measured(number, seed, scratch)
-    scene = scene_of(number, seed, scratch, kind=kind)
+    scene = scene_of(number, seed, scratch, kinds)
     return measured(scene, scratch)
 
 
 def run(
-    numbers: list[int], seed: int, scratch: Path, journal: Path, workers: int, step: Callable[[int, int], None]
+    numbers: list[int],
+    seed: int,
+    scratch: Path,
+    journal: Path,
+    workers: int,
+    step: Callable[[int, int], None],
+    **kinds: tuple[CourseKind, ...],
 ) -> list[dict[str, Any]]:
     """The records of photographs, those that the journal has and those that are taken now, which go into it."""
     done = {record["number"]: record for record in _read(journal, seed)}
     left = [number for number in numbers if number not in done]
-    job = partial(photograph, seed=seed, scratch=scratch)
+    job = partial(photograph, seed=seed, scratch=scratch, **kinds)
     with executor_of(workers) as executor, journal.open("a", encoding="utf-8") as file:
         for record in ordered_results(executor, job, left, ahead=2 * workers):
             done[record["number"]] = record
@@ -99,12 +106,14 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--scratch", type=Path, default=SCRATCH)
+    parser.add_argument("--given-cam", action="store_true", help="only the exercise of a given cam")
     said = parser.parse_args()
     said.scratch.mkdir(parents=True, exist_ok=True)
     numbers = list(range(said.first, said.first + said.photos))
     numbers += list(range(TWO_SHEETS + said.first, TWO_SHEETS + said.first + said.photos // PAIRS))
+    kinds = {"kinds": GIVEN_CAM_KINDS} if said.given_cam else {}
     step = partial(print, "photographs", end="\r", flush=True)
-    records = run(numbers, said.seed, said.scratch, said.out.with_suffix(".jsonl"), said.workers, step)
+    records = run(numbers, said.seed, said.scratch, said.out.with_suffix(".jsonl"), said.workers, step, **kinds)
     record = record_of(records, said.seed)
     said.out.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     sys.stdout.write("\n" + table_of(record["rows"]) + "\n")

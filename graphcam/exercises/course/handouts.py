@@ -16,6 +16,7 @@ from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, views_of
 from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
+from graphcam.exercises.definition.sizes_of_diagrams import sizes_sentence
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.drawn_layers import ORIGIN_LAYER
@@ -41,9 +42,13 @@ KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "t
 
 
 def instructions(variant: Variant) -> str:
-    """The exercise's text with the variant's numbers, its lines joined; no space follows a Chinese sign."""
-    exercise = variant.exercise
-    joined = " ".join(sentence(exercise.text, variant.parameters, exercise.tell).split())
+    """The exercise's text with the variant's numbers, its lines joined; no space follows a Chinese sign.
+
+    The sizes of the diagrams come last, where the text does not tell them and answers on paper depend on them.
+    """
+    exercise, sizes = variant.exercise, sizes_sentence(variant)
+    told = [sentence(exercise.text, variant.parameters, exercise.tell), *([exercise.tell(sizes)] if sizes else [])]
+    joined = " ".join(" ".join(told).split())
     return re.sub("(?<=[，。；：？！]) ", "", joined)
 
 

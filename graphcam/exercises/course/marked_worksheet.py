@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import AXIS_OVERHANG, ordinate_title
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.views import PROFILE, at_scale
+from graphcam.constructions.views import ANALYSIS, PROFILE, at_scale
 from graphcam.drafting.marks import Mark, Points
 from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
@@ -89,31 +89,28 @@ class MarkedView:
 
 
 def marked_views(exercise: Exercise, chain: Chain, side: float, tell: Tell) -> list[MarkedView]:
-    """The views of an exercise's worksheet: its diagrams in order, and the profile.
+    """The views of an exercise's worksheet: its diagrams in order, and the profile or the given cam.
 
-    side : of the room of the profile [mm]
+    side : of the room of the cam [mm]
 
     Raises
     ------
     DesignError : the worksheet shows a view for which no room is known
     """
     steps = [step for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]]
+    cams = {PROFILE.name: PROFILE, ANALYSIS.name: ANALYSIS}
     for step in steps:
-        if step.view.name != PROFILE.name:
-            limit = say("the profile and empty axes alone where worksheets are photographed")
+        if step.view.name not in cams:
+            limit = say("the profile, a given cam and empty axes alone where worksheets are photographed")
             raise DesignError("sheet", step.view.name, limit, say("leave papers out"))
     views = [_diagram(exercise, chain, name, tell) for name in exercise.axes]
-    marks = [mark for step in steps for mark in step.translated(tell).marks]
-    if marks:
-        views.append(_profile(chain, side, marks, tell))
+    for name, cam in cams.items():
+        marks = tuple(mark for step in steps if step.view.name == name for mark in step.translated(tell).marks)
+        if marks:
+            # In the room for which its scale was chosen, whatever the cam.
+            room = Box(-side / 2, -side / 2, side / 2, side / 2)
+            views.append(MarkedView(name, room, marks, tell(at_scale(cam, chain.profile_scale).title)))
     return views
-
-
-def _profile(chain: Chain, side: float, marks: Sequence[Mark], tell: Tell) -> MarkedView:
-    """The cam's profile in the room for which its scale was chosen, whatever the cam."""
-    room = Box(-side / 2, -side / 2, side / 2, side / 2)
-    title = tell(at_scale(PROFILE, chain.profile_scale).title)
-    return MarkedView(PROFILE.name, room, tuple(marks), title)
 
 
 def _diagram(exercise: Exercise, chain: Chain, name: Diagram, tell: Tell) -> MarkedView:

@@ -173,10 +173,11 @@ def bulges(chain: Chain, asked: AskedAnswer) -> Floats:
     and a diagram a straight line.
     """
     points, stations = drawn_answer(chain, asked), chain.board.stations
-    if points.size != stations.u.size:
+    on_given_cam = asked.construction == "analysis" and asked.points == "pitch"
+    if points.size != stations.u.size and not on_given_cam:
         return np.empty(0)
     found = np.zeros(points.size)
-    for piece in stations.pieces:
+    for piece in chain.analysis.givens.outline.pieces if on_given_cam else stations.pieces:
         plotted = points[piece]
         # Of two points alone the second comes back, which lies on the chord as well.
         middle = faired_line(plotted, between=2)[1::2]
