@@ -131,7 +131,7 @@ def _circles(inverted: OffsetInverted) -> Step:
         told = circle_caption(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
         circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle,))]
         # The distance of two axes, at the upper end of both.
-        high = UP * profile_view.centre_line_end(inverted, UP)
+        high = UP * profile_view.centre_line_end(inverted)
         axis = Line(np.array([top.place, foot.place.real + high]), Role.AXIS).left_by(line)
         ends = sorted((0.0, foot.place.real))
         named = say("{symbol} = {length:g}", symbol="e", length=abs(e))
