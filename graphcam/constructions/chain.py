@@ -31,7 +31,6 @@ from graphcam.constructions.fitted_differentiation import given_cam_differentiat
 from graphcam.constructions.integration import integration
 from graphcam.constructions.jerk import jerk
 from graphcam.constructions.kinematic_diagram import scheme
-from graphcam.constructions.profile_view import PHASE_ARC_OFFSET
 from graphcam.constructions.roller import roller_radius
 from graphcam.constructions.views import PROFILE
 from graphcam.constructions.working_profile import working_profile
@@ -434,8 +433,8 @@ class Chain(Drawings):
             rollers = min((term(rho=r0, r0=r0) for term in board.roller_rule), default=0.0)
         width, height, ratios = board.paper.width, board.paper.height, board.paper.ratios
         reach = board.follower.reach(r0, self.place, board.motion, max(rollers, 0.0), board.rotation)
-        # The arcs of the phase angles do not grow with the scale.
-        room = min(width, height) - 2 * PHASE_ARC_OFFSET
+        # The arcs of the phase angles about the curve do not grow with the scale.
+        room = min(width, height)
         inner = max(min(width - PHASE_ANGLES_ROOM.real, height - PHASE_ANGLES_ROOM.imag), room / 2)
         within = board.follower.reach(r0, self.place, board.motion, 0.0, board.rotation)
         return coarsest_scale(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))

@@ -131,11 +131,12 @@ def _circles(inverted: OffsetInverted) -> Step:
         told = circle_caption(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
         circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle,))]
         # The distance of two axes, at the upper end of both.
-        high = UP * profile_view.centre_line_end(inverted, UP)
+        high = UP * profile_view.centre_line_end(inverted)
         axis = Line(np.array([top.place, foot.place.real + high]), Role.AXIS).left_by(line)
         ends = sorted((0.0, foot.place.real))
         named = say("{symbol} = {length:g}", symbol="e", length=abs(e))
-        further = (axis, Dimension(*(x + high - AXIS_DIMENSION_DEPTH * UP for x in ends), named).left_by(foot))
+        level = high - AXIS_DIMENSION_DEPTH * UP
+        further = axis, Dimension(ends[0] + level, ends[1] + level, named).left_by(foot)
         upright = say(
             "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle "
             "up to the prime circle: {line}."

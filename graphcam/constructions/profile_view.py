@@ -313,21 +313,20 @@ def _reach(inverted: Inverted, roller: float, start: float, end: float) -> float
     return float(np.fmax.reduce(farthest, initial=inner if pivots is None else np.abs(pivots.first.points[0])))
 
 
-def centre_line_end(inverted: Inverted, way: complex) -> float:
-    """How far a centre line goes in a direction from the cam centre: beyond prime circle and pitch curve [mm]."""
+def centre_line_end(inverted: Inverted) -> float:
+    """How far the centre lines go from the cam centre, beyond prime circle and pitch curve [mm].
+
+    It is the same for all directions, so that a worksheet does not tell where the curve will lie.
+    """
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    along = (inverted.first("pitch") * np.conj(way)).real
-    return float(np.fmax.reduce(along, initial=prime)) + CENTRE_LINE_OVERRUN
+    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + CENTRE_LINE_OVERRUN
 
 
 def centre_marks(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
     return (
-        *(
-            Line(way * np.array([-centre_line_end(inverted, -way), centre_line_end(inverted, way)]), Role.AXIS)
-            for way in (RIGHT, UP)
-        ),
+        *(Line(way * centre_line_end(inverted) * np.array([-1, 1]), Role.AXIS) for way in (RIGHT, UP)),
         rotation_arrow(-np.pi / 2, sigma, 0.6 * prime),
         Label(0.6 * prime * complex(turned_direction(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
         Dots(np.array([0j]), Role.RESULT),
