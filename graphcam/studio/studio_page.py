@@ -71,37 +71,14 @@ MODE_WORDS: Mapping[str, Caption] = {
 """Captions by the names that ``predict.js``, ``tour.js`` and ``exercise.js`` ask for."""
 
 
+PLAYER_NAMES = (
+    "mechanism", "readings", "drawing", "closer", "farther", "steps", "step", "step_of", "part_of", "part_by_part",
+    "whole_step", "why", "previous", "next", "theme", "all_values", "place", "paper", "value", "play", "pause",
+    "angle", "pressure_angle", "displacement", "velocity",
+)  # fmt: skip
+"""The words that the page shares with the step player."""
 PAGE_CAPTIONS: Mapping[str, Caption] = {
-    **{
-        name: PLAYER_WORDS[name]
-        for name in (
-            "mechanism",
-            "readings",
-            "drawing",
-            "closer",
-            "farther",
-            "steps",
-            "step",
-            "step_of",
-            "part_of",
-            "part_by_part",
-            "whole_step",
-            "why",
-            "previous",
-            "next",
-            "theme",
-            "all_values",
-            "place",
-            "paper",
-            "value",
-            "play",
-            "pause",
-            "angle",
-            "pressure_angle",
-            "displacement",
-            "velocity",
-        )
-    },
+    **{name: PLAYER_WORDS[name] for name in PLAYER_NAMES},
     "studio": say("Studio"),
     "mode": say("Mode"),
     "play_mode": say("Play"),
