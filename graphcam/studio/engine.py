@@ -128,6 +128,10 @@ def error_data(error: GraphcamError, spoken: Language) -> Plain:
     return {"message": named_fields(fault.removeprefix(path), spoken), "remedy": remedy}
 
 
+PHASE_NUMBER = re.compile(r"^motion\.phases\[\d+\]\.")
+"""What stands before the key of a phase's number."""
+
+
 def named_fields(text: str, spoken: Language) -> str:
     """A text with the names of the form's fields where it has their keys.
 
@@ -140,8 +144,8 @@ def named_fields(text: str, spoken: Language) -> str:
 
     def named(found: re.Match[str]) -> str:
         # A word of one part, such as "pencil", is a key only where the sentence is about it.
-        key = found[0]
+        key = PHASE_NUMBER.sub("motion.phases.", found[0])
         is_key = key in names and ("." in key or found.start() == 0)
-        return spoken.text(names[key]) if is_key else key
+        return spoken.text(names[key]) if is_key else found[0]
 
     return PATH_PATTERN.sub(named, text)
