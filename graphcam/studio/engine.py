@@ -137,6 +137,8 @@ def named_fields(text: str, spoken: Language) -> str:
 
     >>> named_fields("follower.offset is -50, but must be less than 44; enlarge cam.prime_radius", ENGLISH)
     'Offset e is -50, but must be less than 44; enlarge Prime radius r₀'
+    >>> named_fields("motion.phases[0].lift is -5", ENGLISH)
+    'Lift is -5'
     """
     from graphcam.studio.form_fields import form_names
 
