@@ -194,7 +194,8 @@ def _angle(mark: marks.AngleMark, place: Placement, text: str, height: float) ->
     start, end = sorted((mark.start, mark.end))
     tail, at_start, at_end = (0.0, "start", "end")
     if (end - start) * radius < MIN_INNER_HEADS:
-        tail, at_start, at_end = TAIL_LENGTH / radius, "end", "start"
+        # Of an angle that is hardly to be seen the tails go round at most.
+        tail, at_start, at_end = min(TAIL_LENGTH / radius, math.pi - (end - start) / 2), "end", "start"
     drawn: list[Entity] = [
         ArcEntity(centre, radius, start - tail, end + tail, Role.DIMENSION),
         _arc_head(centre, radius, start, at_start, Role.DIMENSION),

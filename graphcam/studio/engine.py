@@ -128,11 +128,17 @@ def error_data(error: GraphcamError, spoken: Language) -> Plain:
     return {"message": named_fields(fault.removeprefix(path), spoken), "remedy": remedy}
 
 
+PHASE_NUMBER = re.compile(r"^motion\.phases\[\d+\]\.")
+"""What stands before the key of a phase's number."""
+
+
 def named_fields(text: str, spoken: Language) -> str:
     """A text with the names of the form's fields where it has their keys.
 
     >>> named_fields("follower.offset is -50, but must be less than 44; enlarge cam.prime_radius", ENGLISH)
     'Offset e is -50, but must be less than 44; enlarge Prime radius r₀'
+    >>> named_fields("motion.phases[0].lift is -5", ENGLISH)
+    'Lift is -5'
     """
     from graphcam.studio.form_fields import form_names
 
@@ -140,8 +146,8 @@ def named_fields(text: str, spoken: Language) -> str:
 
     def named(found: re.Match[str]) -> str:
         # A word of one part, such as "pencil", is a key only where the sentence is about it.
-        key = found[0]
+        key = PHASE_NUMBER.sub("motion.phases.", found[0])
         is_key = key in names and ("." in key or found.start() == 0)
-        return spoken.text(names[key]) if is_key else key
+        return spoken.text(names[key]) if is_key else found[0]
 
     return PATH_PATTERN.sub(named, text)

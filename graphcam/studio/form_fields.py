@@ -13,7 +13,7 @@ from graphcam.tasks.declared_numbers import DeclaredNumber, Ruled, declared, num
 from graphcam.tasks.spring_tables import ArmSpringTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.units import HeldIn
-from graphcam.words import Caption, Tell, Words, say
+from graphcam.words import Caption, Tell, Words, say, say_in
 
 Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
@@ -46,14 +46,23 @@ ALWAYS_GIVEN = "motion.tolerance", "motion.radii", "limits.pressure_angle_rise"
 """Numbers that a file may leave out, but a task has."""
 
 
-def form_names() -> dict[str, Caption]:
-    """The names of the numbers that a form may have, by their paths.
+PHASE_NAMES = {
+    "angle": say_in("a phase", "Angle"),
+    "lift": say_in("a phase", "Lift"),
+    "ratio": say_in("a phase", "Ratio of the accelerations"),
+}
+"""The names of the numbers of a phase, by their keys."""
 
-    >>> str(form_names()["spring.damping"])
-    'Damping d'
+
+def form_names() -> dict[str, Caption]:
+    """The names of the numbers that a form may have, by their paths, of every phase by one without its number.
+
+    >>> str(form_names()["spring.damping"]), str(form_names()["motion.phases.lift"])
+    ('Damping d', 'Lift')
     """
     numbers = {**declared(ArcsTask), **declared(Task), "pencil": PENCIL}
-    return {path: number.name for path, number in numbers.items() if number.name}
+    of_phases = {f"motion.phases.{key}": name for key, name in PHASE_NAMES.items()}
+    return of_phases | {path: number.name for path, number in numbers.items() if number.name}
 
 
 def group_of(path: str) -> Caption:

@@ -20,6 +20,7 @@ from graphcam.sheets.player import PAGE_CAPTIONS as PLAYER_WORDS
 from graphcam.sheets.player_svg import roles_css
 from graphcam.sheets.typefaces import font_faces
 from graphcam.studio.address import FIELDS
+from graphcam.studio.form_fields import PHASE_NAMES
 from graphcam.words import Caption, say, say_in
 
 if TYPE_CHECKING:
@@ -71,37 +72,14 @@ MODE_WORDS: Mapping[str, Caption] = {
 """Captions by the names that ``predict.js``, ``tour.js`` and ``exercise.js`` ask for."""
 
 
+PLAYER_NAMES = (
+    "mechanism", "readings", "drawing", "closer", "farther", "steps", "step", "step_of", "part_of", "part_by_part",
+    "whole_step", "why", "previous", "next", "theme", "all_values", "place", "paper", "value", "play", "pause",
+    "angle", "pressure_angle", "displacement", "velocity",
+)  # fmt: skip
+"""The words that the page shares with the step player."""
 PAGE_CAPTIONS: Mapping[str, Caption] = {
-    **{
-        name: PLAYER_WORDS[name]
-        for name in (
-            "mechanism",
-            "readings",
-            "drawing",
-            "closer",
-            "farther",
-            "steps",
-            "step",
-            "step_of",
-            "part_of",
-            "part_by_part",
-            "whole_step",
-            "why",
-            "previous",
-            "next",
-            "theme",
-            "all_values",
-            "place",
-            "paper",
-            "value",
-            "play",
-            "pause",
-            "angle",
-            "pressure_angle",
-            "displacement",
-            "velocity",
-        )
-    },
+    **{name: PLAYER_WORDS[name] for name in PLAYER_NAMES},
     "studio": say("Studio"),
     "mode": say("Mode"),
     "play_mode": say("Play"),
@@ -155,10 +133,10 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "phases": say("Phases"),
     "choose_a_phase": say("Choose a phase to change it, or drag a border."),
     "border": say("Border between"),
-    "angle_of_phase": say_in("a phase", "Angle"),
-    "lift": say_in("a phase", "Lift"),
+    "angle_of_phase": PHASE_NAMES["angle"],
+    "lift": PHASE_NAMES["lift"],
     "law": say_in("a phase", "Law"),
-    "ratio": say_in("a phase", "Ratio of the accelerations"),
+    "ratio": PHASE_NAMES["ratio"],
     "first_blend": say_in("a phase", "Part of the first blend"),
     "second_blend": say_in("a phase", "Part of the second blend"),
     "phase_dwell": say("Add a dwell after it"),

@@ -39,6 +39,16 @@ def test_a_view_larger_than_any_sheet_is_an_error_at_once():
     assert {"combined", "profile"} - {view["name"] for view in found["names"]} == {"combined"}
 
 
+def test_an_angle_that_is_too_small_to_be_seen_is_drawn_once_round():
+    """The tails of its arc went round it millions of times, and took all memory."""
+    task = changed_task(plain_task("coursework"), {"follower": {"kind": "oscillating", "arm": 1e9, "lift": "arc"}})
+    request = {"task": changed_task(task, {"cam": {}, "limits": {"rest": False}}), "views": []}
+    names = [view["name"] for view in answer(request)["names"]]
+    found = answer({**request, "views": [{"name": "plan", "px_per_mm": 1.0}]})
+    assert "plan" in names
+    assert len(json.dumps(found["views"])) < 1e5
+
+
 def test_random_requests_are_answered():
     assert 0.1 * 40 < sum(check(seed) for seed in range(40)) < 0.95 * 40
 
