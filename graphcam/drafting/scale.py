@@ -216,6 +216,7 @@ UNIT_SIZES = {
 UNIT_KINDS = ({"mm", "cm", "m"}, {"deg", "rad"}, {"n", "kn"}, {"mpa", "gpa"})
 
 
+_PER_PATTERN = re.compile(r"\s+(?:per|на|trên|pro)\s+|每")
 _BETWEEN_UNITS_PATTERN = re.compile(r"\s*([/·])\s*")
 _INVERSE_PATTERN = re.compile(r"[\s·*]*\b(\w+?)\^?[-−]1$")
 
@@ -226,10 +227,10 @@ def plain_unit(written: str) -> str:
     >>> plain_unit("град."), plain_unit("(мм/рад)"), plain_unit("mm per rad"), plain_unit("mm·rad⁻¹"), plain_unit("°")
     ('deg', 'mm/rad', 'mm/rad', 'mm/rad', 'deg')
     """
-    bare = re.sub(r"[().]", "", unicodedata.normalize("NFKC", written.replace("°", "deg"))).strip().casefold()
+    bare = re.sub(r"[][().]", "", unicodedata.normalize("NFKC", written.replace("°", "deg"))).strip().casefold()
     if whole := _spelled_units().get(bare):
         return whole
-    parts = _BETWEEN_UNITS_PATTERN.split(_INVERSE_PATTERN.sub(r"/\1", re.sub(r"\s+per\s+", "/", bare)))
+    parts = _BETWEEN_UNITS_PATTERN.split(_INVERSE_PATTERN.sub(r"/\1", _PER_PATTERN.sub("/", bare)))
     return "".join(map(_plain_part, parts))
 
 

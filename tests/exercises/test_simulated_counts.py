@@ -105,6 +105,17 @@ def test_every_record_is_counted_once(figures):
     assert points.tolist() == [4, 5]
 
 
+def test_a_mistake_is_named_too_beside_one_that_the_answers_cannot_tell_from_it():
+    key = SimpleNamespace(inseparable_from=lambda made: {"base-circle"} if made == "offset-sign" else set())
+
+    def counted(name: str, *alike: str) -> str:
+        return module._name_of(SimpleNamespace(misconception=name, alike=alike), key, "offset-sign")
+
+    assert counted("base-circle", "offset-sign") == "offset-sign"
+    assert counted("base-circle") == "base-circle"
+    assert counted("end-ordinate", "offset-sign") == "end-ordinate"
+
+
 def test_the_rates_are_parts_of_the_hands(figures):
     found = figures[0]
     assert found.false_rejections == 3 / 15

@@ -11,7 +11,7 @@ from graphcam.language import language, languages
 
 ANSWERS = find_exercise("pressure-angle").answers
 NUMBERS = {
-    37.1: ["37.1", "37,1", "+37.1", "37.1;", "３７.１", "\u200b37.1", "37.1\u200b", " 37.1 "],
+    37.1: ["37.1", "37,1", "+37.1", "37.1;", "３７.１", "\u200b37.1", "37.1\u200b", " 37.1 ", "037.1", "+ 37.1"],
     37.0: ["37.", "37"],
     0.5: [".5", "0,5", "+.5"],
     -37.1: ["-37.1", "−37.1", "–37,1", "—37.1", "— 37.1", "‑37.1"],
@@ -32,9 +32,23 @@ DEGREES = [
     " Grad",
     "\xa0град",
     "\u202fdeg",
+    " [deg]",
+    " градуса",
 ]
-LENGTHS = ["mm", "mm.", "мм", " MM", " millimetres", "毫米", "\xa0mm", "\u2009мм"]
-PER_RADIAN = ["mm/rad", "мм/рад", " mm per rad", " mm/rad.", "毫米/弧度", " mm·rad⁻¹", " mm rad^-1", "mm / rad"]
+LENGTHS = ["mm", "mm.", "мм", " MM", " millimetres", "毫米", "\xa0mm", "\u2009мм", " миллиметра", " [мм]", "公厘"]
+PER_RADIAN = [
+    "mm/rad",
+    "мм/рад",
+    " mm per rad",
+    " mm/rad.",
+    "毫米/弧度",
+    " mm·rad⁻¹",
+    " mm rad^-1",
+    "mm / rad",
+    " мм на радиан",
+    "毫米每弧度",
+    "[mm/rad]",
+]
 
 
 def read(answer: str, text: str) -> list[float | None]:

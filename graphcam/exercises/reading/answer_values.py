@@ -82,7 +82,7 @@ def plain_signs(text: str) -> str:
     '-20.1'
     """
     plain = text if text.isascii() else unicodedata.normalize("NFKC", text.translate(_TYPED_SIGNS))
-    return re.sub(r"^(\s*)-\s+(?=[\d.,])", r"\1-", plain) if "-" in plain else plain
+    return re.sub(r"^(\s*[-+])\s+(?=[\d.,])", r"\1", plain) if "-" in plain or "+" in plain else plain
 
 
 def decimal(name: str, text: str) -> float:

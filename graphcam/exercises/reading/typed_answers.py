@@ -10,8 +10,8 @@ from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.reading.answer_values import DASHES, decimal, plain_signs, short_text
 
-NUMBER = r"[-+]?(?:0|[1-9]\d{0,14}|(?=[.,]\d))(?:[.,]\d{0,15})?"
-UNIT = r"[^\W\d_][^#=\"'\[\]\\,;]{0,29}|[°(][^\s#=\"'\[\]\\,;]{0,19}"
+NUMBER = r"[-+]?(?:\d{1,15}|(?=[.,]\d))(?:[.,]\d{0,15})?"
+UNIT = r"[^\W\d_][^#=\"'\[\]\\,;]{0,29}|[°(\[][^\s#=\"'\[\]\\,;]{0,19}\]?"
 LINE_PATTERN = re.compile(
     rf"([ \t]*[A-Za-z][A-Za-z0-9_-]*[ \t]*=[ \t]*)({NUMBER}(?:[ \t]*(?:{UNIT}))?)[ \t]*[;,]?[ \t]*(?:#.*)?\r?"
 )
