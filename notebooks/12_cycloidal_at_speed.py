@@ -42,7 +42,7 @@ from graphcam.notebooks import ArrayQuestion, Question, Slider, chart, explore, 
 # $$ m\,\ddot x + c\,(\dot x - \dot s) + k\,(x - s) = 0, \qquad f_n = \frac{1}{2\pi}\sqrt{\frac{k}{m}}, \qquad
 # n = \frac{T}{T_n} = T f_n . $$
 #
-# **Predict.** A mass rests on the train, and the cam's acceleration is switched on at once, from 0 to 4. How far does that of the mass go at most: to 4, to 6, to 8, or without end?
+# **Predict.** A mass hangs on the train, and the cam's acceleration begins suddenly, from 0 to 4. How far does that of the mass go at most: to 4, to 6, to 8, or without end?
 #
 # $f_n$ is the natural frequency, and **one number** decides what happens: $n$, how many natural periods fit into the rise. The same machine at twice the speed has half the $n$.
 # The damping is small, 2 to 10 % of the critical one; we leave it out at first. The train is loaded by $m\ddot x$, so we look at the acceleration of the *mass*, not of the cam.

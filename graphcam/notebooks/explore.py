@@ -163,14 +163,15 @@ def lesson_task(file: Path | str, *followers: str, by_laws: bool = False, roller
     task = load_task(file)
     if (
         isinstance(task, Task)
+        and not task.motion.gives_cam  # a lesson seeks the radius that such a cam has
         and (not followers or task.follower.kind in followers)
         and (not by_laws or _rises_first(task))
         and (not roller or _has_sound_roller(task))
     ):
         return task
     needed = say(
-        "This lesson needs another follower, a motion by laws that rises first, or a roller that does not undercut: it "
-        "goes on with the built-in cam."
+        "This lesson needs another follower, a motion by laws that rises first, a cam that is sought and not given, or "
+        "a roller that does not undercut: it goes on with the built-in cam."
     )
     from IPython.display import Markdown, display
 

@@ -71,6 +71,8 @@ class _FollowerTable(ABC):
     """The limits that this follower does not have, each with the remedy."""
     swings: ClassVar[bool] = False
     """Whether the follower turns about a pivot, so that its spring exerts a moment."""
+    drawn_on_given_cam: ClassVar[bool] = True
+    """Whether the drawing analyses what a given cam does to it."""
     sought: ClassVar[tuple[str, ...]] = ()
     """The sizes for which ranges may be given; a follower without any cannot be sized."""
     takes_corners: ClassVar[bool] = True
@@ -229,6 +231,7 @@ class OscillatingFlatTable(_FollowerTable):
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
     swings = True
+    drawn_on_given_cam = False
     made_to = ("distance",)
     without: ClassVar = {"pressure_angle_rise": SWINGING_FACE_REMEDY, "pressure_angle_return": SWINGING_FACE_REMEDY}
 
@@ -496,7 +499,7 @@ class Task:
         if self.follower.roller_radius is None:
             limit = say("given where the cam is given")
             raise DesignError("follower.roller_radius", say("missing"), limit, say("0 is a knife edge"))
-        if isinstance(self.follower, OscillatingFlatTable):
+        if not self.follower.drawn_on_given_cam:
             limit = say("a stem, an arm, or a flat face on a stem where a given cam is drawn")
             remedy = say("take another follower, or in Python gc.outline_motion, which knows this one too")
             raise DesignError("follower.kind", self.follower.kind, limit, remedy)

@@ -24,7 +24,7 @@ from graphcam.errors import (
 )
 from graphcam.given.table_file import Turn, read_table
 from graphcam.tasks import motion_tables
-from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.arcs_task import ArcsTable, ArcsTask
 from graphcam.tasks.dataclass_reader import (
     Classes,
     MissingKey,
@@ -51,6 +51,8 @@ OUTLINE_KEYS = tuple(each.name for each in dataclasses.fields(motion_tables.Outl
 """The keys of a table ``[outline]``, which stands for a motion with the table of a given cam."""
 _RADII_KEYS = {each.name for each in dataclasses.fields(motion_tables.RadiiTable)} - {"dwell"}
 """The keys by which a table ``[arcs]`` gives a cam by its radii, and not by its points."""
+_POINT_KEYS = {each.name for each in dataclasses.fields(ArcsTable)} - {"dwell"}
+"""The keys by which it gives a cam by its points."""
 
 
 def load_task(path: str | Path) -> Task | ArcsTask:
@@ -302,6 +304,10 @@ def _task(path: str, data: dict[str, Any], whole: dict[str, Any], read: ReadToml
         whole = {"rotation": "ccw", **whole, "motion": {"radii": arcs}}
         del whole["arcs"]
         return checked_table(Task, classes_of(Task), path, data, whole, read)
+    if isinstance(arcs, dict) and not arcs.keys() & _POINT_KEYS:
+        limit = say("a table with base_radius, or with D")
+        remedy = say("of an eccentric disc with the radius R write base_radius = R - e and lift = 2 e")
+        raise TaskError(path, "arcs", say("without both"), limit, remedy)
     if arcs is not None:
         return checked_table(ArcsTask, classes_of(ArcsTask), path, data, whole, read)
     return checked_table(Task, classes_of(Task), path, data, whole, read)

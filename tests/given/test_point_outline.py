@@ -144,6 +144,7 @@ def test_points_that_are_no_cam_are_told(points, said):
     [
         *[("x_mm,y_mm", 1.0), ("X;Y", 1.0), ("x_in\ty_in", 25.4), ("no,x,y,z", 1.0), ("angle_deg,radius_mm", None)],
         *[("X (mm)\tY (mm)", 1.0), ("x [cm];y [cm]", 10.0), ("Winkel (°);Radius", None), ("угол,радиус мм", None)],
+        *[("theta,rho", None), ("角度(°),半径(mm)", None), ("góc (độ),bán kính (mm)", None)],
     ],
 )
 def test_tables_of_points_in_files(tmp_path, head, unit):
@@ -182,6 +183,10 @@ def test_tables_of_points_in_files(tmp_path, head, unit):
         (
             "[arcs]\nbase_radius = 30\nlift = 9\n[motion]\nphases = []",
             "motion is a table.*left out where the cam is given",
+        ),
+        (
+            "[arcs]\neccentricity = 8\nradius = 30",
+            "arcs is without both, but must be a table with base_radius, or with D",
         ),
         ("[arcs]\nbase_diameter = 60\nlift = 9", "arcs.base_diameter is an unknown key.*write base_radius = 30"),
         ("[outline]\nfile = 'beside.csv'", r"beside\.csv: outline is beside the cam centre"),

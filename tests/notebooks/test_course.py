@@ -6,6 +6,7 @@ import re
 import sys
 import tomllib
 from contextlib import chdir
+from pathlib import Path
 from typing import Any
 
 import hard_cases
@@ -133,6 +134,9 @@ def test_a_lesson_that_needs_another_follower_goes_on_with_the_built_in_cam(name
     assert (task != gc.builtin_task(name)) is goes_on
     assert ("Markdown object" in capsys.readouterr().out) is goes_on
     assert task.follower.kind == "translating"
+    # A given cam has the radius that a lesson seeks.
+    given = Path(__file__).parents[1] / "given-cam.toml"
+    assert lesson_task(given, "translating") == lesson_task(given) != gc.load_task(given)
     by_laws = lesson_task(tmp_path / "task.toml", by_laws=True)
     assert by_laws.motion.phases is not None
     assert not goes_on or {getattr(phase, "law", "3-4-5") for phase in task.motion.phases} == {"3-4-5"}
