@@ -18,7 +18,7 @@ from graphcam.sheets.text_measures import width, wrap
 
 LABEL_MARGIN = 3.0
 """The free margin around the drawing of a view, for labels [mm]."""
-STRIP_HEIGHT, MIN_STRIP_COUNT = 16.0, 6
+STRIP_HEIGHT, MIN_STRIP_COUNT = 8.0, 12
 """The height of the boxes that cover the outline of a view [mm], and the minimum number of them."""
 TITLE_GAP = 1.5
 """The gap between a title and the lines below it [mm]."""
