@@ -39,6 +39,8 @@ from graphcam.exercises.reports.unrolled_drawings import (
 from graphcam.plots.step_board import StepBoard
 
 NAME = "inversion-translating"
+BUMP = 5.2
+"""How far the curve of Clara is out at one point [mm]: more than her tolerance."""
 HOSTILE = "<img src=http://127.0.0.1/x onerror=alert(1)>"
 IDS = ("Anna", "Boris", "Clara", "Dmitri", HOSTILE)
 
@@ -55,7 +57,7 @@ def answers(student: str, answer_key: AnswerKey) -> str:
         wrong = answer_key.hypotheses["offset-sign"]
         values = {asked.name: each.value for asked, each in zip(exercise.answers, wrong, strict=True)}
     if student == "Clara":
-        bump = 4 * np.exp(-(((np.arange(values["pitch"].size) - 9) / 1.5) ** 2))
+        bump = BUMP * np.exp(-(((np.arange(values["pitch"].size) - 9) / 1.5) ** 2))
         values["pitch"] = values["pitch"] * (1 + bump / np.abs(values["pitch"]))
     if student == "Dmitri":
         values = {"s_8": values["s_8"]}
@@ -239,17 +241,18 @@ def test_the_pages_of_a_russian_course_are_russian(pages: Path):
 
 
 def test_a_bump_is_circled_where_it_is(pages: Path):
-    """4 mm too far out at the tenth point, and the page says the tenth."""
+    """Too far out at the tenth point, and the page says the tenth."""
     record = next(one for one in json.loads((pages / "grades.json").read_text()) if one["student"] == "Clara")
     pitch = next(answer for answer in record["answers"] if answer["name"] == "pitch")
     assert pitch["station"] == 9
-    assert pitch["off_paper"] == pytest.approx(4.0, abs=0.5)
+    # The nearest place of the curve does not lie straight inwards.
+    assert pitch["off_paper"] == pytest.approx(0.8 * BUMP, abs=0.5)
     html = page_of(pages, "Clara").read_text()
     assert "most of all at point 10" in html
     spot = re.search(r'class="spot" cx="(-?[\d.]+)" cy="(-?[\d.]+)"', html)
     assert spot is not None
     place = key(issued(NAME, "Clara")[1])["pitch"][9]
-    assert abs(complex(float(spot[1]), -float(spot[2])) - place) == pytest.approx(4.0, abs=0.6)
+    assert abs(complex(float(spot[1]), -float(spot[2])) - place) == pytest.approx(BUMP, abs=0.6)
 
 
 def words_of(html: str) -> str:
