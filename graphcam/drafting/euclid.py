@@ -123,8 +123,8 @@ def centre_of_circle(a: Points, b: Points, c: Points) -> Points:
     turn = cross(u, v)
     readable = np.abs(turn) >= math.sin(READABLE_CROSSING) * np.abs(u) * np.abs(v)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        along = dot(u + v, v) / (2 * turn)
-    return np.where(readable, (a + b) / 2 + UP * u * along, NOWHERE)
+        centre = (a + b) / 2 + UP * u * dot(u + v, v) / (2 * turn)
+    return np.where(readable, centre, NOWHERE)
 
 
 def tangent_of_circle(a: Points, b: Points, c: Points) -> Points:

@@ -156,8 +156,8 @@ def without_words(source: bytes) -> bytes:
     What had a docstring has an empty one, for NumPy hands them on.  What is written for a newer Python than this one
     stays as it is.
 
-    >>> without_words(b"def two():\\n    'The number.'\\n    return 2  # always")
-    b"def two():\\n    ''\\n    return 2"
+    >>> without_words(b"number = 2  # always\\n'What it is.'")
+    b'number = 2'
     """
     try:
         tree = ast.parse(source)

@@ -60,9 +60,9 @@ def analysis_of(follower, motion, parts):
 
 
 def random_analysis(seed):
-    """A random cam by radii with its follower and its analyses in more and more parts; None where there is none."""
+    """A random cam by radii with its follower and its analyses in more and more parts; None where none is drawn."""
     found = random_cam(np.random.default_rng(seed))
-    if found is None:
+    if found is None or isinstance(found[1], gc.OscillatingFlat):
         return None
     _, follower, _, motion = found
     return motion, follower, [analysis_of(follower, motion, parts) for parts in PARTS]

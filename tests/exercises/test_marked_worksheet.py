@@ -294,7 +294,7 @@ def test_a_paper_that_it_is_not_made_for_is_refused(name: str, paper: str, messa
         ),
         ('layer = "PITCH"', 'layer = "PITCH"\nmark = "cross"', "one of curve for this answer"),
         ('station = "8"\nunit = "deg"', 'station = "8"\nunit = "deg"\nmark = "length"', "name the view it is drawn in"),
-        ("version = 4", 'version = 4\npaper = "A3"', "an unknown key"),
+        ("version = 5", 'version = 5\npaper = "A3"', "an unknown key"),
     ],
 )
 def test_what_a_file_says_wrongly_of_its_marks_gets_one_message(tmp_path: Path, before: str, after: str, message: str):

@@ -18,6 +18,7 @@ from test_drawn_answers import data_of, handed_in, pitch_of, vertices
 
 from graphcam.exercises.course.handouts import origins, worksheet
 from graphcam.exercises.course.roster import Student
+from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.variant import drawn
 from graphcam.sheets.dxf_renderer import write_dxf
 
@@ -40,15 +41,15 @@ def centre(document: Drawing) -> complex:
 
 
 def test_the_mark_is_the_cam_centre_of_the_sheet(sheet: Path):
-    """The prime circle, which is given, stands about it in its true size."""
-    document = ezdxf.readfile(sheet)
-    r0 = issued(NAME)[1].parameters["r0"]
+    """The prime circle, which is given, stands about it in the scale of the profile."""
+    document, (exercise, answer_key) = ezdxf.readfile(sheet), issued(NAME)
+    inversion = board_chain(drawn(exercise, "Anna", SECRET, answer_key.draw).task)["inversion"]
     circles = {
         round(circle.dxf.radius, 6)
         for circle in document.modelspace().query("CIRCLE")
         if abs(complex(circle.dxf.center.x, circle.dxf.center.y) - centre(document)) < 1e-9
     }
-    assert r0 in circles
+    assert round(answer_key.parameters["r0"] / inversion.givens.mu_l.per_mm, 6) in circles
     assert LAYER in document.layers
     assert not document.modelspace().query(f'*[layer=="{LAYER}"]')
 

@@ -25,7 +25,7 @@ def sizes_sentence(variant: Variant) -> Caption | None:
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> from graphcam.exercises.definition.variant import drawn
     >>> str(sizes_sentence(drawn(find_exercise("inversion-arm", paper="A3"), "Anna", b"secret", 0)))
-    'Choose 40 mm for the maximum ordinate of the first rise, and integrate with the poles H₁ = 25 mm and H₂ = 25 mm.'
+    'Choose 30 mm for the maximum ordinate of the first rise, and integrate with the poles H₁ = 20 mm and H₂ = 20 mm.'
     >>> sizes_sentence(drawn(find_exercise("integration"), "Anna", b"secret", 0))
     """
     exercise = variant.exercise
