@@ -114,7 +114,7 @@ class Givens:
     offset: float = 0.0
     prime: float = 0.0
     roller: float = 0.0
-    limits: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    limits: tuple[float, float] = (0.0, 0.0)
     rule: float = 0.0
     ratio: float = 1.0
     late: int = 0
@@ -213,7 +213,8 @@ def exact(given: Givens) -> tuple[Array, Array, Array]:
 
 def least_height(given: Givens, offset: float, v: Array, s: Array) -> float:
     """The least s0 at an offset by which no permitted pressure angle is exceeded."""
-    up, down, rest = (math.tan(angle) for angle in given.limits)
+    up, down = (math.tan(angle) for angle in given.limits)
+    rest = min(up, down)  # the lower dwell has the limits of both phases beside it
     side = given.sense * offset
     rising = ((v - side) / up - s)[v > 0].max()
     falling = ((-v + side) / down - s)[v < 0].max()
@@ -359,7 +360,7 @@ def with_mistake(given: Givens, name: str) -> Givens:
         "base-circle": lambda: replace(given, prime=given.prime - given.roller),
         "roller-added": lambda: replace(given, prime=given.prime + given.roller),
         "prime-diameter": lambda: replace(given, prime=given.prime / 2),
-        "limits-swapped": lambda: replace(given, limits=(given.limits[1], given.limits[0], given.limits[1])),
+        "limits-swapped": lambda: replace(given, limits=given.limits[::-1]),
         "limit-from-the-horizontal": lambda: replace(given, limits=tuple(math.pi / 2 - a for a in given.limits)),
     }
     return changes[what]() if what in changes else given

@@ -37,9 +37,11 @@ def givens(exercise: Exercise, answer_key: AnswerKey) -> Givens | GivenCam:
         return float(said.get(name, otherwise))
 
     sense = -1 if said.get("rotation") == "cw" else 1
-    poles = value(drawing["poles"][0]), value(drawing["poles"][1])
+    # Of a cam whose motion is not differentiated no poles are told, and no scale where nothing is asked on paper.
+    first, second = drawing.get("poles", (40, 40))
+    poles = value(first), value(second)
     if "base" in said:
-        offset, (shown, real) = number("offset"), map(float, str(said["scale"]).split(":"))
+        offset, (shown, real) = number("offset"), map(float, str(said.get("scale", "1:1")).split(":"))
         sizes = number("base"), number("lift"), math.radians(number("ascent")), number("roller"), offset
         return GivenCam(*sizes, sense, real / shown, poles, held_at=offset, numbered=sense)
     up, down = math.radians(number("limit_up")), math.radians(number("limit_down"))
@@ -55,7 +57,7 @@ def givens(exercise: Exercise, answer_key: AnswerKey) -> Givens | GivenCam:
         offset=number("offset"),
         prime=number("r0", 60.0),
         roller=number("roller", 10.0),
-        limits=(up, down, up),
+        limits=(up, down),
         rule=number("factor"),
         arm=number("arm"),
         distance=number("distance"),

@@ -283,7 +283,7 @@ def test_wrong_input_is_told_before_anything_is_graded(
     ("was", "now", "field"),
     [
         ("lift = { start = 15, stop = 50", "lift = { start = 16, stop = 60", "parameters.lift"),
-        ("version = 4", "version = 5", "version"),
+        ("version = 5", "version = 6", "version"),
     ],
 )
 def test_an_exercise_that_draws_other_variants_than_were_handed_out_is_refused(
