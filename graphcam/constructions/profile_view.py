@@ -51,6 +51,8 @@ PRIME_WHY = say(
 )
 PHASE_ARC_OFFSET, PHASE_RAY_OVERRUN = 5.0, 2.0
 """How far the arcs of the phase angles lie outside all that is drawn in a phase, and their limits beyond them [mm]."""
+PHASE_ARC_NEAREST, PHASE_TEXT_ROOM = 9.0, 13.0
+"""Where the sheet has no more room they lie so far outside the pitch curve, and so far inside the room [mm]."""
 CENTRE_LINE_OVERRUN = 9.0
 """How far the centre lines go beyond the pitch curve [mm]."""
 
@@ -286,6 +288,7 @@ def phases_step(inverted: Inverted, roller: float) -> Step:
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
     spans = [(min(each), max(each)) for each in pairwise(limits.tolist())]
     radii = np.array([_reach(inverted, roller, *span) for span in spans]) + PHASE_ARC_OFFSET
+    radii = np.minimum(radii, _outermost(inverted))
     hand = errorless_hand(inverted)
     rays = hand.erect("limits of the phases", hand.given("cam centre", 0j * limits[:-1]), np.exp(1j * limits[:-1]))
     of, index = rays.act, rays.index
@@ -298,6 +301,15 @@ def phases_step(inverted: Inverted, roller: float) -> Step:
     why = say("While the follower does what it does in a phase, this part of the cam passes it.")
     marks = Segments(0.0 * ends, ends, Role.AXIS, of=of, index=index), *angles
     return Step(say("Phase angles"), (Part(said, (rays,)),), PROFILE, marks, why=why)
+
+
+def _outermost(inverted: Inverted) -> float:
+    """How far out an arc of a phase angle may lie [mm of paper]: no scale is coarser for arcs outside the rollers."""
+    paper = inverted.givens.paper
+    if not paper.bounded or paper.kept_scale(PROFILE.name) is not None:
+        return math.inf  # a kept scale was chosen by the room that there is
+    pitch = float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=0.0))
+    return max(pitch + PHASE_ARC_NEAREST, min(paper.width, paper.height) / 2 - PHASE_TEXT_ROOM)
 
 
 def _reach(inverted: Inverted, roller: float, start: float, end: float) -> float:

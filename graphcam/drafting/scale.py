@@ -143,6 +143,7 @@ NO_HELD_SCALES: Mapping[str, float] = {}
 class Paper:
     """The room of a view on the sheet [mm of paper], and the standard drawing scales.
 
+    bounded : whether a view has no other place on the sheet, so that nothing beside it may go beyond the room
     held : scales [mm/mm] that views keep from an earlier drawing, by name, whatever would fit now
 
     >>> Paper(200, 100, ISO_5455).scale(complex(30, 20)).per_mm
@@ -152,6 +153,7 @@ class Paper:
     width: float
     height: float
     ratios: Ratios
+    bounded: bool = True
     held: Mapping[str, float] = field(default_factory=lambda: NO_HELD_SCALES, hash=False)
 
     def kept_scale(self, view: str) -> Scale | None:

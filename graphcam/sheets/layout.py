@@ -28,7 +28,7 @@ from graphcam.sheets.page_filling import ONE_PAGE, fill, min_pages
 from graphcam.sheets.page_space import FRAME_MARGIN, OpenPage
 from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, taken_boxes, title_box
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
-from graphcam.sheets.view_panels import LABEL_MARGIN, are_disjoint, panels
+from graphcam.sheets.view_panels import are_disjoint, panels
 from graphcam.words import Tell
 
 NOTES_WIDTH = 180.0
@@ -37,8 +37,6 @@ HEADING_HEIGHT = 12.0
 """The height of the title of a view [mm]."""
 FRAME_GAP = 2.0
 """The gap between a label and the frame, mm."""
-PHASE_ARCS_ROOM = 10.0
-"""What the arcs of the phase angles need outside the rollers on both sides [mm]."""
 FURNITURE_HEIGHT = 30.0
 """The height of gauge, marks and margins of a sheet above its title block [mm]."""
 
@@ -141,10 +139,8 @@ def profile_room(paper: str, frame: str, orientation: str | None = None) -> tupl
     if paper in ONE_PAGE:
         # Below the diagrams, left of the title block.
         return inside.width - block.width, inside.height - 445.0
-    # Beside the title block there is air too, and a cell of the grid is lost at either edge.
-    air = LABEL_MARGIN + 2 * MESH + PHASE_ARCS_ROOM
-    above = inside.width - PHASE_ARCS_ROOM, inside.height - block.height - HEADING_HEIGHT - air
-    beside = inside.width - block.width - air, inside.height - HEADING_HEIGHT - PHASE_ARCS_ROOM
+    above = inside.width, inside.height - block.height - HEADING_HEIGHT
+    beside = inside.width - block.width, inside.height - HEADING_HEIGHT
     return max(above, beside, key=min)
 
 

@@ -63,7 +63,9 @@ def format_of(drawing: SheetTable) -> Format:
 def profile_paper(drawing: SheetTable, share: float = 1.0) -> Paper:
     """What the cam's profile may take of the sheet, or a share of its width and height."""
     width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
-    return Paper(share * width, share * height, STANDARD_RATIOS[drawing.frame])
+    # On A1 a profile that is larger stands beside the diagrams.
+    bounded = drawing.format not in ONE_PAGE
+    return Paper(share * width, share * height, STANDARD_RATIOS[drawing.frame], bounded)
 
 
 def papers(drawing: SheetTable, beside: complex = 0j) -> list[Paper]:

@@ -237,10 +237,12 @@ def test_the_phase_angles_follow_one_another_from_the_start_against_the_rotation
         assert off == pytest.approx(0, abs=close(hand, 0.1))
         assert str(mark.text).endswith(f"= {math.degrees(phase.angle):.6g}°")
         assert abs(mark.centre) == abs(rays.starts[k]) == 0
-        # The arc lies outside the pitch points and the roller's circles between its ends, and no farther than need be.
+        # The arc lies outside the pitch points and the roller's circles between its ends, and no farther than need be;
+        # nor beyond the sheet's room, where that lies 9 mm outside the pitch curve.
         turned = pitch * cmath.exp(-0.5j * (low + high))
         inside = np.abs(np.angle(turned)) <= phase.angle / 2 + 1e-6
-        assert mark.radius >= np.abs(pitch[inside]).max(initial=0) + roller + 4.99
+        room = max(np.abs(pitch).max() + 9, min(chain.board.paper.width, chain.board.paper.height) / 2 - 13)
+        assert mark.radius >= min(np.abs(pitch[inside]).max(initial=0) + roller + 5, room) - 0.01
         assert mark.radius <= np.abs(pitch).max() + roller + 5.01
         beside = marks[k - 1].radius
         assert abs(rays.ends[k] - cmath.rect(max(mark.radius, beside) + 2, from_)) < 1e-9
