@@ -147,7 +147,7 @@ def test_a_construction_stands_beside_its_source_and_what_is_chosen_stays(opened
     page.keyboard.press("5")
     settled(page)
     assert (page.evaluate("() => studio.state.get().view"), beside(page)) == (None, ["profile"])
-    assert page.locator("#steps-beside > g").count() == 10
+    assert page.locator("#steps-beside > g").count() == 11
     page.keyboard.press("b")
     settled(page)
     assert (beside(page), page.locator("#stage-beside").is_visible()) == ([], False)
