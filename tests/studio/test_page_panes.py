@@ -156,6 +156,21 @@ def test_a_construction_stands_beside_its_source_and_what_is_chosen_stays(opened
     assert len(beside(page)) == 4
 
 
+def test_panes_come_to_rest_where_each_arrangement_calls_for_the_other(opened):
+    # In so low a window the letters of a diagram that is half as wide make it much smaller than it promised to be.
+    page = opened(wide=1200, high=600, reduced_motion="reduce")
+    page.evaluate("() => studio.open('velocity')")
+    settled(page)
+    page.evaluate(
+        """() => { window.changes = 0; const counted = new MutationObserver(() => { window.changes += 1; });
+        counted.observe(document.getElementById("desk"), { attributeFilter: ["data-split"] }); }"""
+    )
+    page.locator("#beside").select_option("profile")
+    settled(page)
+    assert page.evaluate("() => changes") <= 2
+    assert page.evaluate(SPLIT) == "rows"
+
+
 def test_the_pinned_cam_stands_behind_in_both_panes(opened):
     page = opened(config=OPENING, reduced_motion="reduce")
     page.keyboard.press("8")
