@@ -134,9 +134,9 @@ def test_all_is_done_by_keys(opened):
     settled(page)
     assert page.locator("#view-profile").get_attribute("aria-selected") == "true"
     page.keyboard.press("Shift+ArrowLeft")
-    assert page.locator("#counter").inner_text() == "9 / 10"
+    assert page.locator("#counter").inner_text() == "10 / 11"
     page.keyboard.press("ArrowRight")
-    assert page.locator("#counter").inner_text() == "10 / 10"
+    assert page.locator("#counter").inner_text() == "11 / 11"
     page.keyboard.press("a")
     settled(page)
     assert page.locator("#board .view").count() == 10

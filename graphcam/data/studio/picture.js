@@ -1,8 +1,12 @@
 // What the page shows of the state and of the last answer.
 "use strict";
 
+// So much larger two panes are seen in the other arrangement before it is taken; and how often it is for the same views.
+const MUCH_BETTER = 1.2, MOST_CHANGES = 2;
+
 function pictureOf(page) {
   const { at, word, state, last, strip, sizes } = page, now = state.get;
+  let place = "", changes = 0;
 
   // --- the drawing and its handles ---------------------------------------------------------------------------------------
 
@@ -29,13 +33,19 @@ function pictureOf(page) {
     showHands();
   }
 
-  // Side by side or one above the other, as both are seen larger; a hand that is down finds them as they were.
+  // Side by side or one above the other, as both are seen larger; a hand that is down finds them as they were.  Letters are
+  // as high where a view is smaller, so its frame grows, and each arrangement may call for the other: it changes for something
+  // much better, and back, and then stays for these views in this window.  Before a view has come what is still there counts.
   function showPanes(names) {
-    const { clientWidth, clientHeight } = at("desk"), frames = page.panes.map((pane) => (pane.names().includes("mechanism") ? last.mechanism?.box : picture(pane)?.frame) || [0, 0, ...pane.usual]);
+    const { clientWidth, clientHeight, dataset } = at("desk"), frames = page.panes.map((pane) => (pane.names().includes("mechanism") ? last.mechanism?.box : picture(pane)?.frame) || pane.stage.whole() || [0, 0, ...pane.usual]);
     const seen = (wide, high) => Math.min(...frames.map(([, , w, h]) => Math.min(wide / w, high / h)));
-    const split = !names.length ? "" : page.phone.matches || seen(clientWidth, clientHeight / 2) > seen(clientWidth / 2, clientHeight) ? "rows" : "columns";
-    if (!page.hand && at("desk").dataset.split !== split) {
-      at("desk").dataset.split = split;
+    const better = { rows: MUCH_BETTER, columns: 1 / MUCH_BETTER }[dataset.split] || 1;
+    const split = !names.length ? "" : page.phone.matches || better * seen(clientWidth, clientHeight / 2) > seen(clientWidth / 2, clientHeight) ? "rows" : "columns";
+    const here = [clientWidth, clientHeight, ...page.panes.map((pane) => pane.names())].join();
+    if (place !== here) [place, changes] = [here, 0];
+    if (!page.hand && dataset.split !== split && changes < MOST_CHANGES) {
+      changes += 1;
+      dataset.split = split;
       for (const pane of page.panes) pane.stage.resized();
     }
     at("panes").setAttribute("aria-pressed", names.length > 0);
