@@ -37,7 +37,7 @@ HEADING_HEIGHT = 12.0
 """The height of the title of a view [mm]."""
 FRAME_GAP = 2.0
 """The gap between a label and the frame, mm."""
-PHASE_ARCS_ROOM = 10.0
+PHASE_ARCS_ROOM = 4.0
 """What the arcs of the phase angles need outside the rollers on both sides [mm]."""
 FURNITURE_HEIGHT = 30.0
 """The height of gauge, marks and margins of a sheet above its title block [mm]."""
@@ -141,8 +141,8 @@ def profile_room(paper: str, frame: str, orientation: str | None = None) -> tupl
     if paper in ONE_PAGE:
         # Below the diagrams, left of the title block.
         return inside.width - block.width, inside.height - 445.0
-    # Beside the title block there is air too, and a cell of the grid is lost at either edge.
-    air = LABEL_MARGIN + 2 * MESH + PHASE_ARCS_ROOM
+    # Beside the title block there is air too, and a cell of the grid is lost.
+    air = LABEL_MARGIN + MESH + PHASE_ARCS_ROOM
     above = inside.width - PHASE_ARCS_ROOM, inside.height - block.height - HEADING_HEIGHT - air
     beside = inside.width - block.width - air, inside.height - HEADING_HEIGHT - PHASE_ARCS_ROOM
     return max(above, beside, key=min)
