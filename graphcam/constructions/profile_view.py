@@ -49,7 +49,7 @@ PRIME_WHY = say(
     "Only the motion of the cam relative to the follower matters: with the cam held still, its outline "
     "is what the follower touches on its way round."
 )
-PHASE_ARC_OFFSET, PHASE_RAY_OVERRUN = 2.0, 1.0
+PHASE_ARC_OFFSET, PHASE_RAY_OVERRUN = 2.0, 2.0
 """How far the arcs of the phase angles lie outside all that is drawn in a phase, and their limits beyond them [mm]."""
 CENTRE_LINE_OVERRUN = 9.0
 """How far the centre lines go beyond the pitch curve [mm]."""

@@ -240,8 +240,8 @@ def test_the_phase_angles_follow_one_another_from_the_start_against_the_rotation
         # The arc lies outside the pitch points and the roller's circles between its ends, and no farther than need be.
         turned = pitch * cmath.exp(-0.5j * (low + high))
         inside = np.abs(np.angle(turned)) <= phase.angle / 2 + 1e-6
-        assert mark.radius >= np.abs(pitch[inside]).max(initial=0) + roller + 4.99
-        assert mark.radius <= np.abs(pitch).max() + roller + 5.01
+        assert mark.radius >= np.abs(pitch[inside]).max(initial=0) + roller + 1.99
+        assert mark.radius <= np.abs(pitch).max() + roller + 2.01
         beside = marks[k - 1].radius
         assert abs(rays.ends[k] - cmath.rect(max(mark.radius, beside) + 2, from_)) < 1e-9
         total += phase.angle
