@@ -49,7 +49,7 @@ PRIME_WHY = say(
     "Only the motion of the cam relative to the follower matters: with the cam held still, its outline "
     "is what the follower touches on its way round."
 )
-PHASE_ARC_OFFSET, PHASE_RAY_OVERRUN = 5.0, 2.0
+PHASE_ARC_OFFSET, PHASE_RAY_OVERRUN = 2.0, 2.0
 """How far the arcs of the phase angles lie outside all that is drawn in a phase, and their limits beyond them [mm]."""
 PHASE_ARC_NEAREST, PHASE_TEXT_ROOM = 9.0, 13.0
 """Where the sheet has no more room they lie so far outside the pitch curve, and so far inside the room [mm]."""

@@ -12,7 +12,7 @@ from graphcam.drafting.marks import Mark, Points
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.mark_entities import Placement, expand
 from graphcam.sheets.model import Box, Entity, Text, bounding_box
-from graphcam.sheets.packing import Room
+from graphcam.sheets.packing import MESH, Room
 from graphcam.sheets.sampling import box_around, box_of_lines, linework, outermost, sampled
 from graphcam.sheets.text_measures import width, wrap
 
@@ -103,8 +103,10 @@ class Panel:
         wide = max(text.at.real + width(text.text, text.height) for text in self.heading) + LABEL_MARGIN
         high = max(text.at.imag + (LINE_SPACING - 0.2) * text.height for text in self.heading)
         # Over a diagram whose axis stands at the left, the title begins at the axis, one under the other in a column.
-        left = 4.0 if -content.width / 4 < content.left < 0 else content.left
-        room = Room(Box(left, content.top - high, left + wide + 1.0, content.top + high + 1.0))
+        at_axis = -content.width / 4 < content.left < 0
+        # Beside an axis numbers want the room below a title: there it goes down only where the grid has it to spare.
+        left, air = (4.0, 1.0) if at_axis else (content.left, MESH)
+        room = Room(Box(left, content.top - high, left + wide + air, content.top + high + air))
         room.take_points(self.points, TITLE_GAP)
         title = Box(left, content.top, left + wide, content.top + high)
         by = room.find([title], lambda x, y: y + 100 * x)

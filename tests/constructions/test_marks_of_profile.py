@@ -242,8 +242,8 @@ def test_the_phase_angles_follow_one_another_from_the_start_against_the_rotation
         turned = pitch * cmath.exp(-0.5j * (low + high))
         inside = np.abs(np.angle(turned)) <= phase.angle / 2 + 1e-6
         room = max(np.abs(pitch).max() + 9, min(chain.board.paper.width, chain.board.paper.height) / 2 - 13)
-        assert mark.radius >= min(np.abs(pitch[inside]).max(initial=0) + roller + 5, room) - 0.01
-        assert mark.radius <= np.abs(pitch).max() + roller + 5.01
+        assert mark.radius >= min(np.abs(pitch[inside]).max(initial=0) + roller + 2, room) - 0.01
+        assert mark.radius <= np.abs(pitch).max() + roller + 2.01
         beside = marks[k - 1].radius
         assert abs(rays.ends[k] - cmath.rect(max(mark.radius, beside) + 2, from_)) < 1e-9
         total += phase.angle
