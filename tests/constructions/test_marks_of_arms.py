@@ -839,8 +839,10 @@ def test_the_angles_of_the_phases_are_marked_last_from_the_first_place_of_the_pi
         assert cmath.exp(1j * (arc.end if sigma > 0 else arc.start)) == pytest.approx(cmath.exp(1j * begin))
         assert str(arc.text).endswith(f" = {math.degrees(phase.angle):.6g}°")
         begin -= sigma * phase.angle
-        # Outside the circle of the pivots, and the roller where that reaches farther.
-        assert abs(pivots[0]) + 4.99 < arc.radius < max(abs(pivots[0]), np.nanmax(np.abs(pitch)) + roller) + 5.01
+        # Outside the circle of the pivots, and the roller where that reaches farther; on a smaller sheet nearer.
+        paper, farthest = inverted.givens.paper, np.nanmax(np.abs(pitch))
+        room = max(farthest + 9, min(paper.width, paper.height) / 2 - 13) if paper.bounded else np.inf
+        assert min(abs(pivots[0]) + 2, room) - 0.01 < arc.radius < max(abs(pivots[0]), farthest + roller) + 2.01
     angles = ", ".join(f"{math.degrees(phase.angle):.6g}°" for phase in phases)
     assert angles in str(step.parts[-1].caption)
     assert str(step.parts[-1].caption) in str(step.caption)

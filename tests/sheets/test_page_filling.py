@@ -396,13 +396,12 @@ def test_notes_are_180_mm_wide_at_most_and_no_wider_than_the_sheet():
         ("A1", "gost", "landscape", (808 - 424, 576 - 170)),
         ("A1", "iso", "landscape", (803 - 424, 566 - 170)),
         ("A1", "gost", "portrait", (561 - 185, 823 - 445)),
-        # Above the title block or beside it, whichever leaves the larger square, with air there of 5 mm; the arcs of
-        # the phase angles take 4 mm.
-        ("A2", "gost", "landscape", (561 - 185 - 5 - 4, 402 - 12 - 4)),
-        ("A2", "iso", "portrait", (382 - 4, 566 - 36 - 12 - 5 - 4)),
-        ("A3", "gost", "landscape", (387 - 4, 279 - 55 - 12 - 5 - 4)),
-        ("A4", "iso", "landscape", (259 - 4, 182 - 36 - 12 - 5 - 4)),
-        ("A4", "gost", "portrait", (177 - 4, 279 - 55 - 12 - 5 - 4)),
+        # Above the title block or beside it, whichever leaves the larger square.
+        ("A2", "gost", "landscape", (561 - 185, 402 - 12)),
+        ("A2", "iso", "portrait", (382, 566 - 36 - 12)),
+        ("A3", "gost", "landscape", (387, 279 - 55 - 12)),
+        ("A4", "iso", "landscape", (259, 182 - 36 - 12)),
+        ("A4", "gost", "portrait", (177, 279 - 55 - 12)),
     ],
 )
 def test_the_room_for_the_profile_is_what_diagrams_and_title_block_leave(paper, frame, orientation, room):
