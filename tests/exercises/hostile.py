@@ -271,7 +271,7 @@ DATA: dict[str, Build] = {
     "a walrus": cells(tagged(source="({0} := 1)")),
     "an f-string": cells(tagged(source="{0} = f'{{9 ** 9 ** 9}}'")),
     "a NUL in a cell": cells(tagged(source="{0} = 1\0")),
-    "an octal integer of old": cells(tagged(source="{0} = 0777")),
+    "a sum with an octal integer of old": cells(tagged(source="{0} = 0777 + 1")),
     "a literal times a literal": cells(tagged(source="{0} = 'x' * 10 ** 10")),
     "a starred target": cells(tagged(source="*{0}, = 1,")),
     "other scripts' letters in a cell": cells(tagged(source="\u0455_max = 1")),

@@ -27,8 +27,7 @@ from graphcam.tasks.task_writer import task_files
 pytestmark = pytest.mark.slow
 
 LESSONS = ("02_graphical_integration", "05_inversion", "10_coursework")
-ASKING_FOR_LINES = LESSONS[:2]
-ARRAY_CELL = re.compile(r"(your_(?:v|s|pitch_points)) = None.*\n(\w+)\.check\(\1\)")
+ARRAY_CELL = re.compile(r"(your_(?:v|s|pitch_points|rollers)) = None.*\n(\w+)\.check\(\1\)")
 """A cell of these lessons in which lines are to be written."""
 TASK = changed(gc.builtin_task(), {"rotation": "ccw", "follower.offset": 6.0, "drawing.divisions": 8})
 
@@ -84,7 +83,7 @@ def test_the_students_edition_has_no_answers_and_no_formulas_of_answers(name, co
     # Nor the lines that are to be written, which the teacher has folded.
     assert "Model lines" not in page
     lines = [cell.source for cell in teacher.cells if "hide-input" in cell.metadata.get("tags", ())]
-    assert bool(lines) is (name in ASKING_FOR_LINES)
+    assert lines
     assert not any(source in code for source in lines)
     page = (course / "teacher" / f"{name}.html").read_text(encoding="utf-8")
     assert page.count("<summary>Model lines</summary>") == len(lines)
@@ -102,7 +101,7 @@ def test_the_students_edition_runs_unanswered_and_its_marks_are_those_of_the_tea
     questions = course_questions(course / "student")[name]
     ran = execute(student, course / "student")
     marks = [cell.outputs[0].data["text/plain"] for cell in ran.cells if cell.source.startswith("int(")]
-    arrays = {"02_graphical_integration": 2, "05_inversion": 1}.get(name, 0)
+    arrays = {"02_graphical_integration": 2}.get(name, 1)
     assert marks == ["0"] * (len(questions) + arrays)
     for cell in student.cells:
         cell.source = ARRAY_CELL.sub(r"\1 = \2.values\n\2.check(\1)", cell.source)
