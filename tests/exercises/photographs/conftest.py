@@ -95,7 +95,7 @@ def drawing(points: np.ndarray | None) -> bytes:
 
 
 def made(place: Path, name: str) -> Path:
-    (place / "secret").write_bytes(b"the secret of the photographs")
+    (place / "secret").write_bytes(b"the secret of scanned sheets")
     (place / "roster.csv").write_text("id\n" + "".join(f"{student}\n" for student in STUDENTS))
     make(name, place / "roster.csv", place / "secret", place / "course", paper="A3")
     return place / "course"
