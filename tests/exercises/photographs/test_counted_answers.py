@@ -214,7 +214,7 @@ def test_the_overlay_for_the_student_shows_no_key(course, wobbled):
 
     own, key = coloured("traced-2.jpg")
     assert own > 500
-    assert key == 0
+    assert key < 5  # beside a red line a packed picture may have single pixels that are bluish
     own, key = coloured("overlay-2.jpg")
     assert own > 500
     assert key > 500

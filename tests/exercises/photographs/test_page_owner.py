@@ -12,7 +12,7 @@ from graphcam.photo.printed_page import PrintedPage
 
 pytestmark = pytest.mark.slow
 
-SECRET = b"the secret of the photographs"
+SECRET = b"the secret of scanned sheets"
 
 
 @pytest.fixture
