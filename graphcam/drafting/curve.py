@@ -153,6 +153,7 @@ def on_circles(centre: Points, radius: Distances) -> Reach:
     """How places lie beside circles (..., k), and how far from the origin, left of the way from it to the centres."""
 
     def reach(places: Points) -> tuple[Distances, Distances]:
+        """How far places lie outside the circles, and from the origin where they are left of the way to the centres."""
         left = cross(centre[..., None], places) > 0
         return np.abs(places - centre[..., None]) - radius[..., None], np.where(left, np.abs(places), np.nan)
 

@@ -114,6 +114,7 @@ def run(
     """
 
     def row(k: int) -> Row:
+        """The row of the move of a number."""
         there = tuple(each.first[[k]] for each in drawn)
         return Row(called.with_values(name=names[k]), settings(k) if settings else setting(there[0]), there)
 

@@ -276,6 +276,7 @@ class _PageMaker:
     ink: Ink
 
     def code(self, page: int) -> str:
+        """What the code of a page says."""
         exercise = self.variant.exercise
         said = SheetCode(exercise.name, exercise.version, self.student.id, self.variant.draw, page)
         return said.text(self.secret)
@@ -293,6 +294,7 @@ class _PageMaker:
 
     @property
     def lettering(self) -> Lettering:
+        """The heights of the letters on its paper."""
         drawing = self.variant.task.drawing
         return Format(drawing.format, drawing.frame, drawing.orientation).lettering
 

@@ -86,6 +86,7 @@ def captions(paper: MarkedPaper, title: str, whose: Sequence[str]) -> list[Text]
     gaps = paper.gaps_above()
 
     def written(height: float) -> list[Text]:
+        """The texts with letters so high [mm], cut and fitted where a gap is too narrow."""
         fields = [
             (k, text)
             for pair, who in zip(paper.captions, whose, strict=True)

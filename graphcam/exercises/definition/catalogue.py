@@ -37,6 +37,7 @@ def catalogued(said: Caption, takes: str = "") -> Callable[[M], M]:
     """Enter a function into the catalogue."""
 
     def entered(mistake: M) -> M:
+        """Enter the mistake under its own name, with hyphens."""
         CATALOGUE[mistake.__name__.replace("_", "-")] = CatalogueEntry(said, mistake, takes)
         return mistake
 

@@ -32,6 +32,7 @@ def wrong_law(law: str) -> Change:
         raise DesignError("law", law, say("one of the known laws"), nearest_word_remedy(law, LAWS))
 
     def by_law(phase: Phase) -> Phase:
+        """The phase by that law; a dwell has none."""
         return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, canonical_law(law))
 
     return lambda chain: _with_phases(chain, [by_law(phase) for phase in chain.board.motion.phases])
@@ -131,6 +132,7 @@ def pole_forgotten(name: str) -> Change:
     """The scales of v and a without the pole distances in the construction of that name."""
 
     def forgotten(chain: Chain) -> Chain:
+        """The chain in which no scale is divided by its pole distance."""
         # Differentiation turns the integrations round: in either the velocity has the second pole.
         first, second = chain.board.poles[::-1]
         return _wrong_scales(chain, name, (1 / first, 1 / second))
@@ -158,6 +160,7 @@ def scale_forgotten(place: str) -> Change:
     name, _, reading = place.partition(".")
 
     def forgotten(chain: Chain) -> Chain:
+        """The chain in which that reading is told without its scale."""
         construction = construction_of(chain, name)
         return chain.continued_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
 

@@ -210,11 +210,16 @@ def test_the_overlay_for_the_student_shows_no_key(course, wobbled):
 
     def coloured(name: str) -> tuple[int, int]:
         red, green, blue = np.moveaxis(pixels(course.photos / "Anna" / name), -1, 0)
-        return int((red - np.maximum(green, blue) > 60).sum()), int((blue - red > 50).sum())
+        bluish = blue - red > 50
+        # A line is two pixels and more; beside a red one a packed picture may have a single bluish pixel.
+        line = bluish & (
+            np.roll(bluish, 1, 0) | np.roll(bluish, -1, 0) | np.roll(bluish, 1, 1) | np.roll(bluish, -1, 1)
+        )
+        return int((red - np.maximum(green, blue) > 60).sum()), int(line.sum())
 
     own, key = coloured("traced-2.jpg")
     assert own > 500
-    assert key < 5  # beside a red line a packed picture may have single pixels that are bluish
+    assert key == 0
     own, key = coloured("overlay-2.jpg")
     assert own > 500
     assert key > 500
