@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from programs import program
+from programs import chromium_path
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -18,10 +18,10 @@ def chromium() -> Iterator[Browser]:
     # The quick tests, which share a folder's conftest.py with slow ones, do without it.
     from playwright.sync_api import sync_playwright
 
-    path = program("chromium")
+    path = chromium_path()
     with sync_playwright() as playwright:
         started = playwright.chromium.launch(
-            executable_path=path, args=["--no-sandbox", "--disable-background-networking"]
+            executable_path=path, args=["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
         )
         yield started
         started.close()

@@ -38,7 +38,7 @@ END_JERK = 60.0
 
 def measured_rows(effort: Effort) -> Iterator[BenchRow]:
     """Rows of random motions with noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
-    every = list(sampled_motions(100))
+    every = list(sampled_motions(effort.motions))
     for noise in NOISE_DEVIATIONS:
         some = [one for one in every if one.noise == noise]
         name, first = f"measured, noise {noise:g} mm", some[0]

@@ -118,7 +118,7 @@ def faster_than(ours: float) -> Unit:
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured: parts, laws and hands, stations of laws and of cams, designs of sweeps into files.
+    """How much is measured: parts, laws and hands, stations of laws and of cams, designs of sweeps into files, measured motions.
 
     sizes : the numbers of parts or stations in which methods are timed, by the kind of method
     budget, least_runs : seconds, and runs at least, for every measurement of a time
@@ -134,6 +134,7 @@ class Effort:
     budget: float
     swept: Parts = ()
     least_runs: int = 3
+    motions: int = 100
 
     @cached_property
     def timer(self) -> Timer:

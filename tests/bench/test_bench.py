@@ -20,6 +20,7 @@ from graphcam.bench.rows import BenchRow, Effort
 from graphcam.bench.sweep_curve import swept_file
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import INNER_POINT
+from graphcam.bench.waiting_rows import built_in
 from graphcam.cli import app
 from graphcam.cli.shared import INPUT_ERROR_STATUS, table_lines
 from graphcam.sweeps.sweep import sweep
@@ -34,6 +35,7 @@ TINY = Effort(
     SIZES | dict.fromkeys(("half_planes", "optimiser"), (12, 36)),
     *(1000, 1000, 0.0),
     least_runs=1,
+    motions=40,
 )
 
 
@@ -243,6 +245,7 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
 
     document = json.loads((tmp_path / "report" / "bench.json").read_text(), parse_constant=no_constant)
     _check(document)
+    _check_waiting(document["waiting"], document["studio"])
     with (tmp_path / "report" / "bench.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     measured = {section.key for section in reports.ROWS} - {"workers"}  # which take too long when it must be quick
@@ -317,6 +320,18 @@ def _check(document) -> None:
         assert entry["readings"] > 0
         assert entry["steps"] > 0
     assert set(document["rendering"]) == {"layout", "PDF", "PNG"}
+
+
+def _check_waiting(rows, dragged) -> None:
+    """What a user waits for, with a unit and a goal each, of every built-in task."""
+    whole, *solved = rows
+    assert (whole["name"], whole["goal"], whole["ratio"] > 1) == ("solve, all files", "<= 2.2", True)
+    goals = {"layout": "<= 250", "step player": "<= 150", "view after a size changed": "<= 30"}
+    assert {row["name"]: row["goal"] for row in solved} == goals
+    for some in (solved, dragged):
+        assert all(row["unit"] == "ms" and row["ratio"] > 0 for row in some)
+        assert {row["what"].partition(",")[0] for row in some} == {*built_in()}
+    assert (len(solved), len(dragged)) == (3 * len(built_in()), 9 + 10 + 6 + 7 + 12 + 9)
 
 
 def test_a_folder_that_cannot_be_written_is_told_before_anything_is_measured(tmp_path, monkeypatch):

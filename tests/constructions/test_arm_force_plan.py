@@ -14,7 +14,7 @@ from boards import order
 from over_all import over_all
 
 import graphcam as gc
-from graphcam.constructions.arm_force_plan import arm_force_plan
+from graphcam.constructions.arm_force_plan import FORMULAS, arm_force_plan
 from graphcam.drafting.acts import Act
 from graphcam.drafting.marks import Arrow, Label, Line, Role
 from graphcam.drafting.pencil import Pencil
@@ -157,6 +157,11 @@ def test_no_triangle_where_the_load_does_not_press():
     assert "does not press" in str(plan.steps()[-1].caption)
     assert plan.steps()[-1].marks == ()
     assert "in the sense of the rise" in str(plan.steps()[0].caption)
+    (formula,) = FORMULAS
+    assert formula.values
+    assert list(formula.values(plan)) == []
+    (there,) = formula.values(plan_of(TORSION, 6))
+    assert there["normal"] == pytest.approx(math.hypot(there["load"], there["reaction"]))
     assert all(isinstance(mark, Line) for step in plan.steps()[2:3] for mark in step.own_marks)
 
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from programs import program
+from chromium import chromium
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -19,12 +19,7 @@ def opened(path: Path, site: Path | None = None) -> Generator[tuple[Page, list[s
 
     site : the folder whose files the page may ask for too
     """
-    # The quick tests, which share a file with slow ones, do without it.
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=program("chromium"), args=["--no-sandbox", "--disable-gpu"])  # fmt: skip
+    with chromium() as browser:
         page = browser.new_page()
         wrong: list[str] = []
         own = (site or path).as_uri()
@@ -36,4 +31,3 @@ def opened(path: Path, site: Path | None = None) -> Generator[tuple[Page, list[s
         )
         page.goto(path.as_uri())
         yield page, wrong
-        browser.close()

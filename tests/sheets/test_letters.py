@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from chromium import chromium
 from fontTools.pens.boundsPen import BoundsPen
 from fontTools.ttLib import TTFont
 from matplotlib.font_manager import FontProperties
@@ -153,17 +154,13 @@ def test_a_letter_that_is_drawn_as_a_box_is_found(tmp_path):
 
 def in_chromium(picture: str) -> np.ndarray:
     """The ink of an SVG in a browser, on a machine that has none of its letters but those that it brings."""
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program("chromium"), args=["--no-sandbox"])
+    with chromium() as browser:
         wide, high = int(PAPER.right * DOTS), int(PAPER.top * DOTS)
         page = browser.new_page(viewport={"width": wide, "height": high})
         sized = re.sub(r'width="\d+mm" height="\d+mm"', f'width="{wide}" height="{high}"', picture, count=1)
         page.set_content(f'<body style="margin:0">{sized[sized.index("<svg") :]}</body>')
         page.evaluate("document.fonts.ready")
         shot = page.screenshot()
-        browser.close()
     return imread(BytesIO(shot))[:, :, 0] < 0.5
 
 

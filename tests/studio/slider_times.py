@@ -18,8 +18,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import Page, sync_playwright
-from programs import program
+from chromium import chromium
+from playwright.sync_api import Page
 
 import graphcam as gc
 from graphcam.studio.worker_page import write_one_file
@@ -89,8 +89,7 @@ def told(page: Page, where: str) -> None:
 
 
 def main() -> None:
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program("chromium"), args=["--no-sandbox"])
+    with chromium() as browser:
         window = {"width": 1440, "height": 900}
         with served() as address:
             page = browser.new_page(viewport=window)
