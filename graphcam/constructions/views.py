@@ -16,6 +16,8 @@ DISPLACEMENT = View(
 ANGLE = View(
     "angle", say("Pressure angle"), across="phi", up="alpha", scale=say("Pressure angle α, μ_α = {degrees:g}°/mm")
 )
+MINIMUM_RADIUS = say("Minimum radius")
+"""The title of the combined diagram where it has a drawing scale of its own."""
 COMBINED = View(
     "combined",
     say("Displacement and velocity: the minimum radius"),
