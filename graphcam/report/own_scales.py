@@ -9,12 +9,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from graphcam.constructions.views import COMBINED, PROFILE
+from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, PROFILE, VELOCITY
 from graphcam.sheets.layout import PagesOfPart
 from graphcam.solving.solution import Solution, solved_on
 
-MIN_GAINS = {COMBINED.name: 1.4, PROFILE.name: 1.01}
-"""So many times larger a view must become to be drawn in a scale of its own, by its name."""
+MIN_GAINS = {PROFILE.name: 1.01, COMBINED.name: 1.4}
+"""So many times larger a view must become to be drawn in a scale of its own, by its name, the main view first."""
+
+INTEGRATED_VIEWS = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name
+"""The names of the views that stand one under the other, for lines go from each to the next."""
 
 
 def with_own_scales(solution: Solution, parts: Sequence[PagesOfPart]) -> Solution:
@@ -37,7 +40,7 @@ def with_own_scales(solution: Solution, parts: Sequence[PagesOfPart]) -> Solutio
         for ratio in sorted(ratio for ratio in paper.ratios if ratio * now[name] >= MIN_GAINS[name]):
             tried = {**held, name: 1 / ratio}
             times = {view: now[view] / per_mm for view, per_mm in tried.items()}
-            if not all(part.have_room(times) for part in parts):
+            if not all(part.have_room(times, INTEGRATED_VIEWS) for part in parts):
                 break
             held = tried
     if held == paper.held:

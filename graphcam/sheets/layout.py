@@ -12,7 +12,7 @@ agrees line for line.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -191,10 +191,14 @@ class PagesOfPart:
         """
         return fill(self._sheet, self._views, self._ways)
 
-    def have_room(self, times: Mapping[str, float]) -> bool:
-        """Whether as many pages have room with views so many times as large, by name, each of them on its own."""
+    def have_room(self, times: Mapping[str, float], together: Collection[str] = ()) -> bool:
+        """Whether as many pages have room with views so many times as large, by name, each of them on its own.
+
+        together : the names of views that may not stand on more pages than now
+        """
         views = [panel.enlarged(times.get(panel.view.name, 1.0)) for panel in self._views]
-        return has_room(self._sheet, views, self._ways, len(self.filled))
+        most = sum(not leaf.views.keys().isdisjoint(together) for leaf in self.filled)
+        return has_room(self._sheet, views, self._ways, len(self.filled), (together, most))
 
 
 def _blocks(sheet: Format, part: SheetPart) -> list[list[Block]]:

@@ -13,7 +13,7 @@ Then diagrams stand as far apart as no further page is needed for it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count, islice, pairwise, product
 
@@ -304,12 +304,27 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
     raise AssertionError("pages without end take everything")
 
 
-def has_room(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]], pages: int) -> bool:
-    """Whether so many pages have room for all views and blocks; see :func:`fill`."""
-    cut_views = CutViews(sheet, views)
+def has_room(
+    sheet: Format,
+    views: Sequence[Panel],
+    ways_of_blocks: Sequence[Sequence[Block]],
+    pages: int,
+    together: tuple[Collection[str], int],
+) -> bool:
+    """Whether so many pages have room for all views and blocks; see :func:`fill`.
+
+    together : the names of views that stand on so many of them at most
+    """
+    cut_views, (names, most) = CutViews(sheet, views), together
     if sum(panel.box.area for panel in views) > pages * cut_views.room * MAX_BOXES_SHARE:
         return False
-    return any(_with_all_blocks(cut_views, cut_views.cuts(pages), _settings(ways_of_blocks, pages)))
+
+    def spread(cut: tuple[int, ...]) -> int:
+        """The number of pages of a cut with these views."""
+        return sum(any(panel.view.name in names for panel in views[start:stop]) for start, stop in pairwise(cut))
+
+    cuts = [cut for cut in cut_views.cuts(pages) if spread(cut) <= most]
+    return any(_with_all_blocks(cut_views, cuts, _settings(ways_of_blocks, pages)))
 
 
 def _settings(ways_of_blocks: Sequence[Sequence[Block]], pages: int) -> list[BlockSetting]:
