@@ -88,7 +88,7 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     """The step that lays the displacements off up the line of motion, and at each the velocity."""
     integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
     stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
-    s = ends.shown.imag
+    s, own = ends.shown.imag, integrated.givens.combined
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
@@ -109,7 +109,8 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
 
     def set_off(k: int) -> Caption:
         """How far up s and how far aside v are laid off at station k."""
-        up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else say("{s:.2f} mm up", s=s[k])
+        up = say("{s:.2f} mm up", s=s[k]) if own is None else say("s {set} up", set=setting(heights.first[[k]]))
+        up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else up
         at = ends.first[[k]]
         v_there = (
             say("v = 0")
