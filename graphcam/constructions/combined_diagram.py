@@ -29,7 +29,10 @@ from graphcam.words import say_in, sequence
 def combined_view(integrated: Integrated) -> View:
     """The view of the combined diagram: beside that of s, in whose scale it is, or with a drawing scale of its own."""
     own = integrated.givens.combined
-    return COMBINED if own is None else at_scale(replace(COMBINED, up=COMBINED.name, title=MINIMUM_RADIUS), own)
+    if own is None:
+        return COMBINED
+    alone = replace(COMBINED, up=COMBINED.name, title=MINIMUM_RADIUS, answer=ratio_text(own.per_mm))
+    return at_scale(replace(alone, found_by=integrated.name), own)
 
 
 def combined_scale(integrated: Integrated) -> Floats | float:
@@ -92,10 +95,12 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
-    # How far it goes on down to the cam centre is found by drawing.
-    lift = Line(UP * np.array([0.0, float(ends.shown.imag.max()) + AXIS_OVERHANG]), Role.AXIS)
+    # How far it goes on down to the cam centre is found by drawing, and up in a scale of its own.
+    top, given = (float(np.max(each)) + AXIS_OVERHANG for each in (s, integrated.first("s")))
+    lift = Line(UP * np.array([0.0, given]), Role.AXIS)
     marks = (
         *(lift, Line(UP * np.array([bottom, 0.0]), Role.AXIS)),
+        *(() if own is None else (Line(UP * np.array([given, top]), Role.AXIS),)),
         *(
             ends.segments_from(heights, Role.CONSTRUCTION),
             heights.dots(Role.CONSTRUCTION),

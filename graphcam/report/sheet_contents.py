@@ -238,10 +238,10 @@ def _with_scale_title(step: Step, by: Construction | None) -> Step:
         return step
     view, read = step.view, by.readings[by.meaning.scales[step.view.name]]
     mu = read.per_mm
+    values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
     if view.scale is not None:
-        values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
         mu_l = mu if view.main else None
         view = replace(view, title=view.scale.with_values(mu=mu, **values), mu_l=mu_l)
     if found_by := by.meaning.scales_found_by:
-        view = replace(view, answer=say("{mu:.4g}", mu=view.title.values["mu"]), found_by=found_by)
+        view = replace(view, answer=(view.answer or say("{mu:.4g}")).with_values(mu=mu, **values), found_by=found_by)
     return replace(step, view=view)
