@@ -182,7 +182,7 @@ def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
     ways = [way.with_values(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
     told = say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
     drawn = arcs.acts[f"given_{name}" if name in "AD" else name]
-    return PLOT_CAPTION.with_values(name=name, told=told, way=and_list(ways)), drawn
+    return PLOT_CAPTION.with_values(name=indexed(name), told=told, way=and_list(ways)), drawn
 
 
 def _data(arcs: ArcOutline) -> Step:
@@ -342,7 +342,7 @@ def _profile(arcs: ArcOutline) -> Step:
 
     def of_arc(said: Caption, arc: str, centre: str, name: str) -> Caption:
         """A sentence on an arc, with its radius in mm and on paper."""
-        return said.with_values(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
+        return said.with_values(arc=arc, centre=indexed(centre), name=name, rho=radii[name], paper=radii[name] / mu_l)
 
     said = [
         *(of_arc(rise, arc, centre, name) for arc, centre, _, name in flank),

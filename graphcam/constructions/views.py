@@ -24,7 +24,7 @@ COMBINED = View(
     across="offset",
     up="s",
     # Blank as a whole, so that a worksheet does not tell whether the region is large enough for a scale of its own.
-    answer=say("μₛ = {mu:.4g} {unit}/mm"),
+    blank=say("μₛ = {mu:.4g} {unit}/mm"),
     scale=say("Minimum radius, μₛ = {mu:.4g} {unit}/mm"),
 )
 PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")

@@ -243,5 +243,5 @@ def _with_scale_title(step: Step, by: Construction | None) -> Step:
         mu_l = mu if view.main else None
         view = replace(view, title=view.scale.with_values(mu=mu, **values), mu_l=mu_l)
     if found_by := by.meaning.scales_found_by:
-        view = replace(view, answer=(view.answer or say("{mu:.4g}")).with_values(mu=mu, **values), found_by=found_by)
+        view = replace(view, answer=view.blank.with_values(mu=mu, **values), found_by=found_by)
     return replace(step, view=view)

@@ -311,13 +311,13 @@ def test_the_profile_is_made_of_arcs_that_touch_and_of_their_mirror_images(name)
     assert (len(arcs) == 8) == (dwell > 0)
     if dwell:
         assert arcs[3].end - arcs[3].start == pytest.approx(dwell)
-    rise = re.findall(r"Arc (\w\w) about (C\d): compass (\S+) mm, (\S+) = (\S+) mm", str(step.caption))
+    rise = re.findall(r"Arc (\w\w) about (C[₁₂₃]): compass (\S+) mm, (\S+) = (\S+) mm", str(step.caption))
     assert [row[:2] for row in rise] == [("AG", "C₂"), ("GF", "C₃"), ("FD", "C₁")]
     rho2, rho3, rho1 = (float(row[-1]) for row in rise)
     assert [float(row[2]) for row in rise] == pytest.approx(
         [arc.radius for arc in arcs[:3]], abs=max(0.006, tolerance(name))
     )
-    back = re.findall(r"Mirror (C\d) and the ends of (\w\w) .*?compass (\S+) mm", str(step.caption))
+    back = re.findall(r"Mirror (C[₁₂₃]) and the ends of (\w\w) .*?compass (\S+) mm", str(step.caption))
     assert [(arc, centre) for centre, arc, _ in back] == [row[:2] for row in rise[::-1]]
     assert [float(radius) for *_, radius in back] == [float(row[2]) for row in rise[::-1]]
     dwells = re.findall(r"([UL]\w+) dwell, .*?compass (\S+) mm, (\S+) mm of the cam", str(step.caption))
@@ -339,7 +339,8 @@ def test_the_profile_is_made_of_arcs_that_touch_and_of_their_mirror_images(name)
         assert (float(degrees), float(half)) == (math.degrees(dwell), pytest.approx(abs(turned), abs=1.0))
         assert sense == again == ("clockwise" if turned < 0 else "anticlockwise")
     for mark, text, value in zip(all_of(step, Dimension), "₂₃₁", (rho2, rho3, rho1), strict=True):
-        symbol, shown = str(mark.text).split(" = ")
+        symbol, shown = str(mark.text).split(" = R")
+        assert mark.of_radius
         assert (symbol, float(shown)) == (f"ρ{text}", pytest.approx(value, abs=0.006))
         assert abs(mark.end - mark.start) * mu == pytest.approx(value, abs=max(tolerance(name), 0.001))
     radii = [arc.radius * mu for arc in (*arcs[:3], arcs[-1])]
@@ -653,8 +654,8 @@ def test_the_accelerations_of_all_stations_lie_on_their_rays(name):
         assert abs(((m[j] - n[j]) * (b[j] - c).conjugate()).real) < 1e-4
         assert abs(across(b[j], m[j])) < 1e-6
         title, centre, _, ck, cn, om, way, factor, a = re.findall(
-            r"Station (\S+(?: on \w+)?): (C\d)E = (C\d)K = (\S+) mm, (?:C\dN = (\S+) mm|N in C\d), OM = (\S+) mm "
-            r"(.*), × (\S+): a = (\S+) mm/rad²",
+            r"Station (\S+(?: on \w+)?): (C[₁₂₃])E = (C[₁₂₃])K = (\S+) mm, (?:C[₁₂₃]N = (\S+) mm|N in C[₁₂₃]), "
+            r"OM = (\S+) mm (.*), × (\S+): a = (\S+) mm/rad²",
             said,
         )[0]
         assert (station_of(name, title), centre) == (j, CENTRES[arc])
