@@ -11,6 +11,8 @@ from unicodedata import normalize
 UNDERSCORE_PATTERN = re.compile(r"(?<!\w)([Α-Ωα-ω])_(\w+(?:\.\w+)*)")
 SUBSCRIPT_PATTERN = re.compile("[\u2080-\u209c\u1d62-\u1d6a\u2c7c]+")
 
+_SUBSCRIPT_DIGITS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
 
 def parts(text: str) -> Iterator[tuple[str, bool]]:
     """The pieces of a text, each with whether it is an index; indices are in plain letters.
@@ -36,6 +38,15 @@ def plain_index(index: str) -> str:
     ('21', 'у1')
     """
     return normalize("NFKC", index)
+
+
+def indexed(name: str) -> str:
+    """A name with its digits as an index.
+
+    >>> indexed("C1"), indexed("G")
+    ('C₁', 'G')
+    """
+    return name.translate(_SUBSCRIPT_DIGITS)
 
 
 def in_html(text: str) -> str:

@@ -165,6 +165,7 @@ def solve(
         last = _last_step(upto, worksheet=worksheet)
         given = _read_task(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
+        from graphcam.report.documents import contents_of
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
 
@@ -172,6 +173,8 @@ def solve(
         with errors_name(task):
             hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
             solution = solved(given, hand)
+            if folder is not None:  # as it is drawn on the sheets
+                solution = contents_of(solution, per_construction=per_construction).solution
             document = _document(solution, finished=last is None)
             if folder is None:
                 # A wrong choice is one even where nothing is drawn by it.

@@ -29,6 +29,7 @@ from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
 from graphcam.drafting.telling import Move, move_parts
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane_vectors import dot
+from graphcam.subscripts import indexed
 from graphcam.words import and_list, sequence
 
 ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"), main=True)
@@ -58,7 +59,10 @@ MEANING = Meaning(
         "outer": ReadingMeaning(say("radius of the outer circle"), "OD", "mm"),
         **{
             f"{point}_{axis}": ReadingMeaning(
-                sequence([point, axis]), f"{point} {axis}", "mm", (ComparedReading(f"{point}_{axis}"),)
+                sequence([indexed(point), axis]),
+                f"{indexed(point)} {axis}",
+                "mm",
+                (ComparedReading(f"{point}_{axis}"),),
             )
             for point in ("C1", "C2", "C3", "F")
             for axis in "xy"
@@ -66,7 +70,9 @@ MEANING = Meaning(
         "rho2": ReadingMeaning(say("radius ρ₂"), "ρ₂", "mm", (ComparedReading("rho2", say("ρ₂")),)),
         "rho3": ReadingMeaning(say("radius ρ₃"), "ρ₃", "mm", (ComparedReading("rho3", say("ρ₃")),)),
         **{
-            f"other_{point}_{axis}": ReadingMeaning(sequence([f"{point}′", axis]), f"{point}′ {axis}", "mm")
+            f"other_{point}_{axis}": ReadingMeaning(
+                sequence([f"{indexed(point)}′", axis]), f"{indexed(point)}′ {axis}", "mm"
+            )
             for point in ("C3", "F")
             for axis in "xy"
         },
@@ -77,8 +83,8 @@ MEANING = Meaning(
             r"C_3C_1 = <rho3:.3f> - <rho1:g> = <apart:.3f>\ \text{<mm>}, \qquad C_3G = <rho3:.3f>\ \text{<mm>}",
             _centres_apart,
             (
-                Symbol(r"\rho_1", say("the radius of the arc about C1"), "mm"),
-                Symbol(r"\rho_3", say("the radius of the arc about C3"), "mm"),
+                Symbol(r"\rho_1", say("the radius of the arc about C₁"), "mm"),
+                Symbol(r"\rho_3", say("the radius of the arc about C₃"), "mm"),
             ),
             "rho3",
         ),
@@ -176,7 +182,7 @@ def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
     ways = [way.with_values(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
     told = say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
     drawn = arcs.acts[f"given_{name}" if name in "AD" else name]
-    return PLOT_CAPTION.with_values(name=name, told=told, way=and_list(ways)), drawn
+    return PLOT_CAPTION.with_values(name=indexed(name), told=told, way=and_list(ways)), drawn
 
 
 def _data(arcs: ArcOutline) -> Step:
@@ -201,13 +207,13 @@ def _first_centre(arcs: ArcOutline) -> Step:
     given, mu_l, acts = arcs.givens.given, arcs.givens.mu_l.per_mm, arcs.acts
     c1, d, about, outer = (acts[name] for name in ("C1", "D", "circle about C1", "circle through D"))
     values = {"rho1": given.rho1, "radius": given.rho1 / mu_l, "outer": abs(d.place), "at": _at(arcs, "C1")}
-    circle = say("Draw the circle about C1: compass {radius:.2f} mm, ρ₁ = {rho1:g} mm."), about
+    circle = say("Draw the circle about C₁: compass {radius:.2f} mm, ρ₁ = {rho1:g} mm."), about
     if given.C1 is None:
-        stepped = say("With the dividers step {radius:.2f} mm off from D towards O: C1 = {at}.")
+        stepped = say("With the dividers step {radius:.2f} mm off from D towards O: C₁ = {at}.")
         joined_with, join = "D O", (say("Join D and O with the ruler."), acts["D O"])
         moves = [join, (stepped, c1), circle, (OUTER_CIRCLE_CAPTION, d, outer)]
     else:
-        join = say("Join O and C1; of the two crossings with the circle, D is the one beyond C1.")
+        join = say("Join O and C₁; of the two crossings with the circle, D is the one beyond C₁.")
         joined_with, plotted = "O C1", _plot(arcs, "C1", given.C1)
         moves = [plotted, circle, (join, acts["O C1"], d), (OUTER_CIRCLE_CAPTION, outer)]
     marks = (
@@ -215,7 +221,7 @@ def _first_centre(arcs: ArcOutline) -> Step:
         *(about.drawn_circle(Role.CONSTRUCTION), c1.dots(), d.dots(), _named(arcs, "C1", d.place)),
         outer.drawn_circle(Role.CONSTRUCTION),
     )
-    why = say("The outer circle and the arc about C1 touch in D, so O, C1 and D lie on one line.")
+    why = say("The outer circle and the arc about C₁ touch in D, so O, C₁ and D lie on one line.")
     parts = move_parts(moves, values)
     return Step(say("The first centre"), parts, ARCS, marks, (*_xy("C1"), "outer"), why=why)
 
@@ -224,7 +230,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
     given, acts, mu_l = arcs.givens.given, arcs.acts, arcs.givens.mu_l.per_mm
     a, c2, g, about = (acts[name] for name in ("A", "C2", "G", "circle about C2"))
     if np.isnan(a.place):
-        said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
+        said = say("The bisector of AG meets the line OA at less than a degree: C₂ cannot be read.")
         return unreadable_step(say("The second centre"), said, ARCS)
     radius = abs(g.place - c2.place)
     values = {"rho2": radius * mu_l, "radius": radius, "mu": mu_l, "base": abs(a.place), "at": _at(arcs, "C2")}
@@ -235,15 +241,15 @@ def _second_centre(arcs: ArcOutline) -> Step:
         found: list[Move] = [
             (say("Join A and G with the ruler."), chord),
             (halved, acts["bisector of given_A G"]),
-            (say("Extend the line AO beyond O as far as the bisector: C2 = {at}."), acts["O A"], c2),
+            (say("Extend the line AO beyond O as far as the bisector: C₂ = {at}."), acts["O A"], c2),
         ]
     else:
         on, bisector = "O C2", ()
-        found = [_plot(arcs, "C2", given.C2), (say("Join C2 and O, and go on beyond O."), acts["O C2"])]
+        found = [_plot(arcs, "C2", given.C2), (say("Join C₂ and O, and go on beyond O."), acts["O C2"])]
     moves = [
         *found,
-        (say("Join G and C2: ρ₂ = C2 G = {radius:.2f} mm × {mu:g} = {rho2:.3f} mm."), acts["G C2"]),
-        (say("Draw the arc about C2 from G with {radius:.2f} mm: it meets that line beyond O in A."), about, a),
+        (say("Join G and C₂: ρ₂ = C₂ G = {radius:.2f} mm × {mu:g} = {rho2:.3f} mm."), acts["G C2"]),
+        (say("Draw the arc about C₂ from G with {radius:.2f} mm: it meets that line beyond O in A."), about, a),
         (say("Draw the base circle about O through A: compass {base:.2f} mm."), acts["circle through A"]),
     ]
     turn = float(np.angle((a.place - c2.place) / (g.place - c2.place)))
@@ -253,12 +259,12 @@ def _second_centre(arcs: ArcOutline) -> Step:
         acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
         *(*bisector, c2.dots(), a.dots(), _named(arcs, "C2"), *((_named(arcs, "A"),) if given.A is None else ())),
     )
-    why = say("The arc touches the base circle in A, so O lies on the line C2 A, and C2 is as far from A as from G.")
+    why = say("The arc touches the base circle in A, so O lies on the line C₂ A, and C₂ is as far from A as from G.")
     reads, parts = (*_xy("C2"), "rho2", "base"), move_parts(moves, values)
     return Step(say("The second centre"), parts, ARCS, marks, reads, why=why)
 
 
-LAID_OFF = say("Set the dividers to {step:.2f} mm, ρ₁, and lay it off on the line G C2 from G {side}: P{prime}.")
+LAID_OFF = say("Set the dividers to {step:.2f} mm, ρ₁, and lay it off on the line G C₂ from G {side}: P{prime}.")
 
 
 def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
@@ -268,30 +274,30 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     chord, radius = abs(acts[p].place - acts["C1"].place), abs(acts[c3].place - acts["G"].place)
     values = {"prime": "′" if name else "", "step": arcs.givens.given.rho1 / mu_l, "compass": BISECTION_SHARE * chord}
     values |= {"radius": radius, "mu": mu_l, "rho3": radius * mu_l}
-    values |= {"c3": _at(arcs, c3), "f": _at(arcs, f), "side": say("away from C2") if name else say("towards C2")}
+    values |= {"c3": _at(arcs, c3), "f": _at(arcs, f), "side": say("away from C₂") if name else say("towards C₂")}
     title = say("The other root") if name else say("The third centre")
     if np.isnan(arcs.first(c3)):
-        parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
+        parallel = say("The bisector of C₁ P{prime} is almost parallel to the line: C₃{prime} cannot be read.")
         said = sequence([each.with_values(**values) for each in (LAID_OFF, parallel)], " ")
         return [unreadable_step(title, said, ARCS)]
     to_c3 = [
         (LAID_OFF, acts["G C2"], acts[p]),
-        (say("Join C1 and P{prime} with the ruler."), acts[f"C1 {p}"]),
+        (say("Join C₁ and P{prime} with the ruler."), acts[f"C1 {p}"]),
         (
-            say("Bisect C1 P{prime}: compass {compass:.2f} mm about both ends, the ruler through the two crossings."),
+            say("Bisect C₁ P{prime}: compass {compass:.2f} mm about both ends, the ruler through the two crossings."),
             acts[f"bisector of C1 {p}"],
         ),
         (
             say(
-                "Where the bisector meets the line G C2 is C3{prime} = {c3}: ρ₃{prime} = C3{prime} G = {radius:.2f} mm "
+                "Where the bisector meets the line G C₂ is C₃{prime} = {c3}: ρ₃{prime} = C₃{prime} G = {radius:.2f} mm "
                 "× {mu:g} = {rho3:.3f} mm."
             ),
             acts[c3],
         ),
     ]
     to_f = [
-        (say("Join C3{prime} and C1, and go on to both crossings with the circle about C1."), acts[f"C1 {c3}"]),
-        (say("The crossing {radius:.2f} mm from C3{prime}, as far as G, is F{prime} = {f}."), acts[f]),
+        (say("Join C₃{prime} and C₁, and go on to both crossings with the circle about C₁."), acts[f"C1 {c3}"]),
+        (say("The crossing {radius:.2f} mm from C₃{prime}, as far as G, is F{prime} = {f}."), acts[f]),
     ]
     centre = (
         *(_line(arcs, "G C2", "G", p, c3, role=role), *_bisector(arcs, "C1", p, c3, role)),
@@ -301,13 +307,13 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     orders = _orders(arcs, name)
     if name:
         why = say(
-            "Laid off the other way, ρ₁ leads to a second centre as far from P′ as from C1, so that there are two "
+            "Laid off the other way, ρ₁ leads to a second centre as far from P′ as from C₁, so that there are two "
             "roots."
         )
         parts = move_parts([*to_c3, *to_f], values, last=[orders])
         return [Step(title, parts, ARCS, (*centre, *line), (*_xy(c3), *_xy(f)), why=why)]
-    why = say("C3 lies on the line G C2, and as C3 P and C3 C1 both are ρ₃ − ρ₁, on the bisector of C1 P.")
-    touch = say("The arcs about C3 and C1 touch in F, so C3, C1 and F lie on one line.")
+    why = say("C₃ lies on the line G C₂, and as C₃ P and C₃ C₁ both are ρ₃ − ρ₁, on the bisector of C₁ P.")
+    touch = say("The arcs about C₃ and C₁ touch in F, so C₃, C₁ and F lie on one line.")
     first, last = move_parts(to_c3, values), move_parts(to_f, values, last=[orders])
     return [
         Step(title, first, ARCS, centre, (*_xy("C3"), "rho3"), why=why),
@@ -336,7 +342,7 @@ def _profile(arcs: ArcOutline) -> Step:
 
     def of_arc(said: Caption, arc: str, centre: str, name: str) -> Caption:
         """A sentence on an arc, with its radius in mm and on paper."""
-        return said.with_values(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
+        return said.with_values(arc=arc, centre=indexed(centre), name=name, rho=radii[name], paper=radii[name] / mu_l)
 
     said = [
         *(of_arc(rise, arc, centre, name) for arc, centre, _, name in flank),
@@ -349,7 +355,8 @@ def _profile(arcs: ArcOutline) -> Step:
     parts.insert(-4, Part(middle, (axis,)))
     dimensions = (
         Dimension(
-            *(acts[centre].place, acts[end].place, say("{name} = {rho:.2f}", name=name, rho=radii[name]))
+            *(acts[centre].place, acts[end].place, say("{name} = R{rho:.2f}", name=name, rho=radii[name])),
+            of_radius=True,
         ).left_by(acts[f"circle about {centre}"])
         for _, centre, end, name in flank
     )
@@ -366,7 +373,8 @@ def _profile(arcs: ArcOutline) -> Step:
 
 
 def _primed(name: str) -> str:
-    return name.removeprefix("other_") + "′" * name.startswith("other_")
+    """A point's name as it is written, of the other root with a prime."""
+    return indexed(name.removeprefix("other_")) + "′" * name.startswith("other_")
 
 
 def _named(arcs: ArcOutline, name: str, away: complex = 0j) -> Label:
@@ -402,7 +410,7 @@ def _xy(name: str) -> tuple[str, str]:
 def _orders(arcs: ArcOutline, name: str) -> Caption:
     """A caption with the order of the points on the two lines of centres."""
     first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
-    built = (first, second) == (["F", "C1", "C3"], ["G", "C3", "C2"])
+    built = (first, second) == (["F", "C₁", "C₃"], ["G", "C₃", "C₂"])
     can, cannot = say("the arcs touch internally, and the cam can be made"), say("such a cam cannot be made")
     said = say("The orders on the lines are {first} and {second}: {verdict}.")
     return said.with_values(first=sequence(first), second=sequence(second), verdict=can if built else cannot)

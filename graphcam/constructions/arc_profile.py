@@ -102,7 +102,7 @@ ROLLER = View(
 )
 ARCS = ("AG", "GF", "FD")
 """The arcs of the rise, in order."""
-CENTRES = ("C2", "C3", "C1")
+CENTRES = ("C₂", "C₃", "C₁")
 """What they are about."""
 
 

@@ -41,6 +41,7 @@ from graphcam.drafting.meaning import A, ComparedReading, Formula, Meaning, Read
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit as unit_named
 from graphcam.given.laws import Floats
+from graphcam.subscripts import indexed
 from graphcam.words import and_list
 
 ENDS = {
@@ -213,7 +214,7 @@ RAY_OVERHANG = 7.0
 
 def _draw(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
-        missing = and_list([name for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
+        missing = and_list([indexed(name) for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
         said = say(
             "Not every arc has a centre that can be read ({missing}), so the roller has no path.", missing=missing
         )
@@ -247,11 +248,11 @@ def _paths(rolled: RollerOnArcs) -> Step:
     centres = {name: acts[f"three_arcs: {name}"] for name in ("C3", "C1")}
     starts = np.array([centres[name].place for name in ("C3", "C3", "C1")])
     values = {"roller": roller, "paper": roller / arcs.givens.mu_l.per_mm, "prime": _radii(prime)[0]}
-    copied = say("Copy the profile from the drawing of the arcs, with O, the joints, C1 and C3.")
+    copied = say("Copy the profile from the drawing of the arcs, with O, the joints, C₁ and C₃.")
     if not roller:
         copied = say(
             "The knife edge moves along the arcs of the profile itself: copy it from the drawing of the arcs, with O, "
-            "the joints, C1 and C3."
+            "the joints, C₁ and C₃."
         )
     parts = [Part(copied, (*(circle for _, circle in profile), *joints, o, *centres.values()))]
     marks: list[Mark] = [
@@ -259,7 +260,7 @@ def _paths(rolled: RollerOnArcs) -> Step:
         Segments(trace.shown[1:], starts, Role.AXIS).left_by(lines[1:]),
         *(joint.label(name, -at) for joint, name, at in zip(joints, "AGFD", trace.shown.tolist(), strict=True)),
         *(o.dots(), o.label("O", -1 - 1j), prime.drawn_circle(Role.CONSTRUCTION)),
-        *(mark for name, at in centres.items() for mark in (at.dots(), at.label(name, -UP))),
+        *(mark for name, at in centres.items() for mark in (at.dots(), at.label(indexed(name), -UP))),
     ]
     why = say("A knife edge has no radius, so it runs on the profile itself.")
     if roller:
@@ -285,7 +286,7 @@ def _lines_to_centre(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
         "The roller's centre moves along arcs about the same centres, with radii larger by r = {roller:g} mm: from "
         "every joint set {paper:.2f} mm off outward on its line of centres."
     ).with_values(**values)
-    centres = [say("on the line from {centre}", centre=name) for name in ("O", "C3", "C3", "C1")]
+    centres = [say("on the line from {centre}", centre=name) for name in ("O", "C₃", "C₃", "C₁")]
     return telling.run(said, say("From {name}"), "AGFD", lines, trace, settings=centres.__getitem__)
 
 

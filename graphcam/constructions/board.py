@@ -49,6 +49,8 @@ class DrawnFollower(ABC):
     place_title: Caption = say("offset")
     unit = "mm"
     """The unit of the lift: "mm", or "rad" for an arm."""
+    has_own_region = False
+    """Whether the combined diagram of the minimum radius may have a scale of its own."""
     divides_at_corners = False
     """Whether a corner of the acceleration must fall on a division, for the extremes may lie in it."""
     constructions: tuple[str, ...] = (

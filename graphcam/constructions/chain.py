@@ -32,7 +32,7 @@ from graphcam.constructions.integration import integration
 from graphcam.constructions.jerk import jerk
 from graphcam.constructions.kinematic_diagram import scheme
 from graphcam.constructions.roller import roller_radius
-from graphcam.constructions.views import PROFILE
+from graphcam.constructions.views import COMBINED, PROFILE
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
@@ -135,7 +135,8 @@ class Chain(Drawings):
     def integration(self) -> Construction:
         """Velocity and displacement by two graphical integrations."""
         lowest = "angle_diagram" not in self.names
-        return integration(self.acceleration, self.board.poles, self.pencil, lowest=lowest)
+        combined = self.board.paper.kept_scale(COMBINED.name)
+        return integration(self.acceleration, self.board.poles, self.pencil, lowest=lowest, combined=combined)
 
     @DrawnOnce
     def jerk(self) -> Construction:

@@ -1,10 +1,11 @@
 """The combined diagram of displacement and velocity, in which a translating follower's cam centre is found.
 
 At every displacement s_i on the line of motion, v_i is laid off turned by 90 degrees in the sense of the cam's
-rotation, to D_i, in the scale of s.  Seen from a cam centre A, the angle between A D_i and the line of motion is the
-pressure angle.
+rotation, to D_i, in the scale of s or both in a larger one.  Seen from a cam centre A, the angle between A D_i and the
+line of motion is the pressure angle.
 """
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -12,29 +13,56 @@ import numpy as np
 
 from graphcam.constructions.axes import AXIS_OVERHANG, number_labels, pieces_of, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.views import COMBINED
-from graphcam.drafting.acts import Drawn
+from graphcam.constructions.views import COMBINED, MINIMUM_RADIUS, at_scale
+from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, errorless_hand
-from graphcam.drafting.ink import Caption, Construction, Part, Reading, Row, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, say
 from graphcam.drafting.marks import Line, Role
-from graphcam.drafting.scale import NEGLIGIBLE_SIZE
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, ratio_text
 from graphcam.drafting.telling import STATION, run, setting, stretch_caption
 from graphcam.given.follower import Rotation, sense
+from graphcam.given.laws import Floats
 from graphcam.words import say_in, sequence
 
 
+def combined_view(integrated: Integrated) -> View:
+    """The view of the combined diagram: beside that of s, in whose scale it is, or with a drawing scale of its own."""
+    own = integrated.givens.combined
+    if own is None:
+        return COMBINED
+    alone = replace(COMBINED, up=COMBINED.name, title=MINIMUM_RADIUS, answer=ratio_text(own.per_mm))
+    return at_scale(replace(alone, found_by=integrated.name), own)
+
+
+def combined_scale(integrated: Integrated) -> Floats | float:
+    """The scale of the combined diagram [mm/mm]: its own, or that of s, which may be one a sample."""
+    own = integrated.givens.combined
+    return integrated.readings["s"].scale if own is None else own.per_mm
+
+
+def combined_length(hand: Hand, integrated: Integrated, length: float) -> Setting | float:
+    """A length [mm] on the paper of the combined diagram."""
+    own = integrated.givens.combined
+    return hand.at_scale(length, integrated.readings["s"]) if own is None else length / own.per_mm
+
+
 def velocities(hand: Hand, integrated: Integrated, rotation: Rotation) -> Drawn:
-    """The ends of v, laid off at the displacements in the scale of s, turned by 90 degrees in the sense of the cam."""
-    s, v = integrated.readings["s"], integrated.readings["v"]
+    """The ends of v, laid off at the displacements in one scale, turned by 90 degrees in the sense of the cam."""
+    s, v, scale = integrated.readings["s"], integrated.readings["v"], combined_scale(integrated)
+    line = hand.given("line of motion", along=UP)
     # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
-    heights = hand.project("displacements", hand.carry(s), hand.given("line of motion", along=UP))
-    return hand.lay_off("ends", heights, -sense(rotation) * RIGHT, hand.carry(v, v.scale / s.scale))
+    if integrated.givens.combined is None:
+        heights = hand.project("displacements", hand.carry(s), line)
+    else:
+        heights = hand.lay_off("displacements", line, UP, hand.carry(s, s.scale / scale))
+    return hand.lay_off("ends", heights, -sense(rotation) * RIGHT, hand.carry(v, v.scale / scale))
 
 
-def offset_line(hand: Hand, start: Drawn, offset: float, s: Reading) -> Drawn:
-    """The line on which the cam centre lies at an offset [mm], in the scale of s: downwards."""
-    return hand.erect("line of the offset", hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s)), -UP)
+def offset_line(hand: Hand, start: Drawn, integrated: Integrated, offset: float) -> Drawn:
+    """The line on which the cam centre lies at an offset [mm]: downwards."""
+    foot = hand.lay_off("offset", start, -RIGHT, combined_length(hand, integrated, offset))
+    return hand.erect("line of the offset", foot, -UP)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -63,14 +91,16 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     """The step that lays the displacements off up the line of motion, and at each the velocity."""
     integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
     stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
-    s = integrated.first("s")
+    s, own = ends.shown.imag, integrated.givens.combined
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
-    # How far it goes on down to the cam centre is found by drawing.
-    lift = Line(UP * np.array([0.0, float(ends.shown.imag.max()) + AXIS_OVERHANG]), Role.AXIS)
+    # How far it goes on down to the cam centre is found by drawing, and up in a scale of its own.
+    top, given = (float(np.max(each)) + AXIS_OVERHANG for each in (s, integrated.first("s")))
+    lift = Line(UP * np.array([0.0, given]), Role.AXIS)
     marks = (
         *(lift, Line(UP * np.array([bottom, 0.0]), Role.AXIS)),
+        *(() if own is None else (Line(UP * np.array([given, top]), Role.AXIS),)),
         *(
             ends.segments_from(heights, Role.CONSTRUCTION),
             heights.dots(Role.CONSTRUCTION),
@@ -84,7 +114,8 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
 
     def set_off(k: int) -> Caption:
         """How far up s and how far aside v are laid off at station k."""
-        up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else say("{s:.2f} mm up", s=s[k])
+        up = say("{s:.2f} mm up", s=s[k]) if own is None else say("s {set} up", set=setting(heights.first[[k]]))
+        up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else up
         at = ends.first[[k]]
         v_there = (
             say("v = 0")
@@ -99,35 +130,45 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
         "will show."
     )
     title = say("Velocities at the displacements")
-    return Step(title, (Part(base, (start,)), stationed), COMBINED, marks, given=(lift,), why=why)
+    return Step(title, (Part(base, (start,)), stationed), combined_view(integrated), marks, given=(lift,), why=why)
 
 
 def _laying_off(region: Construction[Any]) -> Caption:
     """Sentences on how all stations are laid off, and one of them in full."""
     integrated, ends, sigma = region.givens.integrated, region.acts["ends"], sense(region.givens.rotation)
     k, longest = worked_station(integrated), float(np.abs(ends.shown.real).max())
+    scale = float(np.ravel(combined_scale(integrated))[0])
+    carried = say(
+        "Carry every displacement s to the line of motion, upwards from B₀, with the dividers or, from a "
+        "diagram level with it, across with the T-square. From every mark lay v off horizontally with the "
+        "dividers, {rise} on a rise and {back} on a return: v turned by 90° with the cam, {rotation}. "
+        "Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
+    )
+    if integrated.givens.combined is not None:
+        carried = say(
+            "The diagram has a scale of its own, {ratio}: {scale:g} mm/mm. Multiply every ordinate of s by "
+            "μₛ/{scale:g} = {times:.5g} and lay it off on the line of motion, upwards from B₀, with the dividers. From "
+            "every mark lay v off horizontally, {rise} on a rise and {back} on a return: v turned by 90° with the cam, "
+            "{rotation}. Multiply every ordinate of v by μᵥ/{scale:g} = {factor:.5g}, so that both have one scale."
+        ).with_values(ratio=ratio_text(scale), scale=scale, times=integrated.readings["s"].per_mm / scale)
     said = [
-        say(
-            "Carry every displacement s to the line of motion, upwards from B₀, with the dividers or, from a "
-            "diagram level with it, across with the T-square. From every mark lay v off horizontally with the "
-            "dividers, {rise} on a rise and {back} on a return: v turned by 90° with the cam, {rotation}. "
-            "Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
-        ).with_values(
+        carried.with_values(
             rise=side_caption(-sigma),
             back=side_caption(sigma),
             rotation=sense_caption(region.givens.rotation),
-            factor=integrated.readings["v"].per_mm / integrated.readings["s"].per_mm,
+            factor=integrated.readings["v"].per_mm / scale,
         )
     ]
     if integrated.first("v")[k] > NEGLIGIBLE_SIZE:
-        worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=integrated.first("s")[k])
+        worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=ends.shown[k].imag)
         said.append(worked.with_values(name=station_names(integrated.givens.stations)[k], set=setting(ends.first[[k]])))
     return sequence([*said, say("The longest measures {longest:.1f} mm.", longest=longest)], " ")
 
 
 def curves_step(region: Construction[Any]) -> Step:
     """The step that draws the curves through the ends, from jump to jump of the acceleration."""
-    hand, ends, stations = errorless_hand(region), region.acts["ends"], region.givens.integrated.givens.stations
+    integrated, hand, ends = region.givens.integrated, errorless_hand(region), region.acts["ends"]
+    stations = integrated.givens.stations
     names, pieces = station_names(stations), stations.pieces
     curves = [hand.fair("curve", ends.first, [piece]) for piece in pieces]
     # Two ends have no curve.
@@ -145,7 +186,7 @@ def curves_step(region: Construction[Any]) -> Step:
     why = say("The limits must be satisfied between the stations too.")
     marks = tuple(curve.line(Role.RESULT) for curve in curves)
     title = say("Curves of rise and return")
-    return Step(title, (Part(sequence(said, " "), rows=through),), COMBINED, marks, why=why)
+    return Step(title, (Part(sequence(said, " "), rows=through),), combined_view(integrated), marks, why=why)
 
 
 def offset_caption(offset: float, mu: float) -> Caption:

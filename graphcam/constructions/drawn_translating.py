@@ -37,6 +37,7 @@ class DrawnTranslating(DrawnFollower):
     """A translating follower; ``place`` is its offset [mm, machine sign], None where it is to be found."""
 
     place: float | None
+    has_own_region = True
 
     @property
     def conditions(self) -> dict[str, float | None]:

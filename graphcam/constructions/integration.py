@@ -52,7 +52,7 @@ from graphcam.drafting.meaning import (
     per_mm,
 )
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale, unit
 from graphcam.drafting.telling import introduced_parts
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
@@ -73,11 +73,13 @@ class IntegrationGivens(TurnGivens):
     """The acceleration diagram with what lies on its board, and the distances of the two poles [mm of paper].
 
     lowest : whether no diagram follows below that of s, so that the phases' angles stand there
+    combined : the scale of the combined diagram of s and v [mm/mm], None for that of s
     """
 
     diagram: AccelerationDiagram
     poles: tuple[float, float]
     lowest: bool = False
+    combined: Scale | None = None
 
     def integrated_parts(self, index: int) -> NDArray[np.bool_]:
         """(p,) the parts that the first or second integration has a ray for: there is none in a blow.
@@ -189,16 +191,22 @@ MEANING = Meaning(
 
 
 def integration(
-    diagram: AccelerationDiagram, poles: tuple[float, float], pencil: Pencil, *, lowest: bool = False
+    diagram: AccelerationDiagram,
+    poles: tuple[float, float],
+    pencil: Pencil,
+    *,
+    lowest: bool = False,
+    combined: Scale | None = None,
 ) -> Integrated:
     """Integrate the acceleration diagram twice and fix its scale by the known lift.
 
     poles : H1 (acceleration to velocity) and H2 (velocity to displacement) [mm of paper]
     lowest : whether no diagram follows below that of s
+    combined : the scale of the combined diagram of s and v [mm/mm], None for that of s
 
     Readings besides those of the meaning: ``a_before``, at the stations as ``a``, on the near side of a jump.
     """
-    givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles, lowest=lowest)
+    givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles, lowest=lowest, combined=combined)
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.earlier_places(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)

@@ -14,6 +14,8 @@ import numpy as np
 from graphcam.constructions.adoption import ChainSettings
 from graphcam.constructions.axes import degrees, pieces_of
 from graphcam.constructions.combined_diagram import (
+    combined_scale,
+    combined_view,
     curves_step,
     displacement_step,
     offset_caption,
@@ -34,7 +36,6 @@ from graphcam.constructions.region import (
     picture_of,
     touched_stations,
 )
-from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, distance_between, errorless_hand
@@ -169,18 +170,18 @@ def least_radius(
     offset : of the follower's line [mm, machine sign], or None to let it be found
     """
     givens = LeastRadiusGivens(integrated, rotation, limits, offset)
-    hand, s = Hand(pencil, MEANING), integrated.readings["s"]
+    hand, scale = Hand(pencil, MEANING), combined_scale(integrated)
     start, level = hand.given("start of the lift"), hand.given("zero lift", along=RIGHT)
     lines = _bounds(hand, givens, velocities(hand, integrated, rotation), start)
     hand.cross("rise at zero lift", lines[0], level)
     near = nearest_permitted(hand, "nearest", lines, start)
     highest_on(hand, "central", lines, hand.given("line of motion", along=UP), level)
     if offset is not None:
-        near = highest_on(hand, "highest", lines, offset_line(hand, start, offset, s), level)
+        near = highest_on(hand, "highest", lines, offset_line(hand, start, integrated, offset), level)
     centre = hand.take("centre", near)
-    hand.read("prime_radius", distance_between(start, centre), s.scale)
-    hand.read("offset", distance_between(centre, start, RIGHT), s.scale)
-    hand.read("s0", distance_between(centre, start, UP), s.scale)
+    hand.read("prime_radius", distance_between(start, centre), scale)
+    hand.read("offset", distance_between(centre, start, RIGHT), scale)
+    hand.read("s0", distance_between(centre, start, UP), scale)
     places = {"ends": hand.acts["ends"], "centre": centre} | {line.act.name: line for line in lines}
     return hand.finished(givens, _draw, places)
 
@@ -277,7 +278,7 @@ def _draw(region: LeastRadius) -> list[Step]:
     centre, lines = region.acts["centre"].first, shown_boundaries(region)
     others = (place.place for place in _alternatives(region).values())
     picture = picture_of((0j, centre.place, *others, *_adopted(region)), lines)
-    found = _unreadable() if np.isnan(centre.place) else _result(region)
+    found = _unreadable(region) if np.isnan(centre.place) else _result(region)
     steps = (
         displacement_step(region, picture.bottom),
         curves_step(region),
@@ -308,7 +309,9 @@ def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
         "and from points below the tangent at less."
     )
     marks = tuple(mark for _, drawn in lines for mark in drawn)
-    return Step(say("Tangents at the permitted angles"), tuple(parts), COMBINED, marks, why=why)
+    return Step(
+        say("Tangents at the permitted angles"), tuple(parts), combined_view(region.givens.integrated), marks, why=why
+    )
 
 
 def _limit_line(
@@ -396,7 +399,9 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     chosen = say("Thin crosses mark the points that textbooks choose.")
     parts = Part(sequence([*sides, hatch], " "), (permitted,)), *introduced_parts(chosen, crosses)
     why = say("The cam centre must satisfy all limits at once.")
-    return Step(say("The region of the cam centre"), parts, COMBINED, tuple(marks), why=why)
+    return Step(
+        say("The region of the cam centre"), parts, combined_view(region.givens.integrated), tuple(marks), why=why
+    )
 
 
 def _outside(lines: list[Boundary], place: complex) -> complex:
@@ -404,14 +409,14 @@ def _outside(lines: list[Boundary], place: complex) -> complex:
     return -sum((complex(line.inward) for line in binding_boundaries(lines, place)), 0j) or 1 - 1j
 
 
-def _unreadable() -> Step:
+def _unreadable(region: LeastRadius) -> Step:
     """The last step where no cam centre can be read."""
     said = say(
         "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
         "at less than a degree."
     )
     why = say("Lines at so flat an angle do not show where they cross.")
-    return Step(say("The minimum prime radius"), (Part(said),), COMBINED, (), why=why)
+    return Step(say("The minimum prime radius"), (Part(said),), combined_view(region.givens.integrated), (), why=why)
 
 
 def _result(region: LeastRadius) -> Step:
@@ -447,7 +452,9 @@ def _result(region: LeastRadius) -> Step:
     why = say(
         "The nearer the cam centre is to B₀, the smaller the cam, and points of the hatched region satisfy all limits."
     )
-    return Step(say("The minimum prime radius"), tuple(parts), COMBINED, marks, reads, why=why)
+    return Step(
+        say("The minimum prime radius"), tuple(parts), combined_view(region.givens.integrated), marks, reads, why=why
+    )
 
 
 def _height(paper: float, mu: float, s0: float) -> Caption:

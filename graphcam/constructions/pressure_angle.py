@@ -16,10 +16,18 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.adoption import ChainSettings, adoption_step
 from graphcam.constructions.axes import sense_caption, station_names
-from graphcam.constructions.combined_diagram import offset_caption, offset_line, side_caption, velocities
+from graphcam.constructions.combined_diagram import (
+    combined_length,
+    combined_scale,
+    combined_view,
+    offset_caption,
+    offset_line,
+    side_caption,
+    velocities,
+)
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
-from graphcam.constructions.views import COMBINED, PLAN
+from graphcam.constructions.views import PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Direction, Hand, calculated_setting, distance_between, errorless_hand
@@ -143,16 +151,16 @@ def pressure_angle(
     It is positive on an ordinary rise.
     """
     hand = Hand(pencil, MEANING)
-    s, start, ends = integrated.readings["s"], hand.given("start of the lift"), velocities(hand, integrated, rotation)
+    start, ends = hand.given("start of the lift"), velocities(hand, integrated, rotation)
     # The cam centre: on the line at the offset, as far from the start of the lift as the prime radius.
-    line = offset_line(hand, start, offset, s)
-    prime = hand.circle("prime circle", start, hand.at_scale(prime_radius, s))
+    line = offset_line(hand, start, integrated, offset)
+    prime = hand.circle("prime circle", start, combined_length(hand, integrated, prime_radius))
     met, touch = hand.cross("circle and line", line, prime), hand.project("touch", start, line)
     # A line that misses the circle, by the hand's errors, is taken to touch it.
     either = hand.take("circle or touch", met, touch, which=np.isnan(met.points).astype(int)[..., None])
     centre = hand.take("centre", either[0])
     read_angles(hand, UP, hand.join("rays", centre, ends), sense(rotation))
-    hand.read("s0", distance_between(centre, start, UP), s.scale)
+    hand.read("s0", distance_between(centre, start, UP), combined_scale(integrated))
     givens = PressureAngleGivens(integrated, rotation, prime_radius, offset)
     return hand.finished(givens, _draw, {"ends": ends, "centre": centre})
 
@@ -220,7 +228,7 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     scale = plan_scale(measured, k, (end.place - centre.place) * mu)
     scales = VelocityScale(scale, measured.givens.omega)
     shown = _PlanStation(measured, k, scales, _plan(measured, k, mu / scale.per_mm))
-    rounding = [adoption_step(decided, "e", mu, COMBINED)] if decided else []
+    rounding = [adoption_step(decided, "e", mu, combined_view(measured.givens.integrated))] if decided else []
     return [
         *(*rounding, _cam_centre(measured)),
         *(_mechanism(shown), _velocities(shown), _normal(shown), _angle(shown)),
@@ -334,7 +342,14 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
         parts.insert(1, Part(offset_caption(offset, mu), (line,)))
         marks.append(_stroke(line, centre.place - 6 * UP, centre.place.real + 6 * UP, Role.AXIS))
     why = say("A lies on the vertical at the offset, and its distance from B₀ is the prime radius.")
-    return Step(say("The cam centre at the adopted radius"), tuple(parts), COMBINED, tuple(marks), ("s0",), why=why)
+    return Step(
+        say("The cam centre at the adopted radius"),
+        tuple(parts),
+        combined_view(measured.givens.integrated),
+        tuple(marks),
+        ("s0",),
+        why=why,
+    )
 
 
 def _mechanism(shown: _PlanStation) -> Step:
@@ -456,4 +471,4 @@ def _all_stations_step(measured: Construction[PressureAngleGivens], shown: int) 
     joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
     why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")
-    return Step(title, (joined,), COMBINED, (rays.segments(Role.CONSTRUCTION),), reads, why=why)
+    return Step(title, (joined,), combined_view(integrated), (rays.segments(Role.CONSTRUCTION),), reads, why=why)

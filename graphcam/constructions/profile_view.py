@@ -22,7 +22,7 @@ from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP, turned_direction, unit
 from graphcam.drafting.hand import Direction, Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.marks import AngleMark, Arc, Dimension, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import ReadingConvergence, ReadingMeaning
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
 from graphcam.drafting.telling import FRENCH_CURVE, circle_caption, stretch_caption
@@ -240,14 +240,14 @@ ARC_STEP = math.radians(1)
 """The arcs of a closed curve are drawn through points this far apart [rad]."""
 
 
-def _radius_arrow(inverted: Inverted, circle: Drawn, start: complex) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:
-    """An arrow to the prime circle from its centre, in the middle of the longest phase, where there is most room.
+def _dimensioned_radius(inverted: Inverted, circle: Drawn, start: complex) -> tuple[Mark, Drawn]:
+    """The radius of the prime circle from its centre, in the middle of the longest phase, where there is most room.
 
     start : the direction in which the circle is at the start of the turn
 
     Returns
     -------
-    its marks, and what they are of
+    its mark, and what it is of
     """
     motion: Motion = inverted.givens.integrated.givens.motion
     longest = int(np.argmax([phase.angle for phase in motion.phases]))
@@ -256,10 +256,8 @@ def _radius_arrow(inverted: Inverted, circle: Drawn, start: complex) -> tuple[tu
     towards = complex(turned_direction(start / abs(start), -sigma * middle))
     ray = hand.erect("radius r₀", circle.first, towards)
     tip = hand.cross("tip of r₀", ray, circle.first)
-    named, text = hand.divide("r₀", ray, tip, 0.6), say("{symbol} = {radius:g}", symbol="r₀")
-    text = text.with_values(radius=inverted.givens.prime_radius)
-    arrow = Arrow(ray.place, tip.place, Role.DIMENSION).left_by(ray)
-    return (arrow, named.label(text, tip.place * UP)), (ray, named)
+    text = say("r₀ = R{radius:g}", radius=inverted.givens.prime_radius)
+    return Dimension(ray.place, tip.place, text, of_radius=True).left_by(ray), ray
 
 
 def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
@@ -361,11 +359,11 @@ def prime_step(
     parts : what is drawn after the prime circle
     """
     centre, circle = centre_marks(inverted), inverted.acts["prime circle"]
-    arrow, of_arrow = _radius_arrow(inverted, circle, start)
-    marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
+    radius, ray = _dimensioned_radius(inverted, circle, start)
+    marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, radius, *further)
     prime = say_in("drawn", "the prime circle about the cam centre A")
     told = circle_caption(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)
-    parts = (Part(told, (circle, *of_arrow)), *parts)
+    parts = (Part(told, (circle, ray)), *parts)
     return Step(title, parts, PROFILE, marks, given=centre, why=why)
 
 

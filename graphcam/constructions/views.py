@@ -16,11 +16,15 @@ DISPLACEMENT = View(
 ANGLE = View(
     "angle", say("Pressure angle"), across="phi", up="alpha", scale=say("Pressure angle α, μ_α = {degrees:g}°/mm")
 )
+MINIMUM_RADIUS = say("Minimum radius")
+"""The title of the combined diagram where it has a drawing scale of its own."""
 COMBINED = View(
     "combined",
     say("Displacement and velocity: the minimum radius"),
     across="offset",
     up="s",
+    # Blank as a whole, so that a worksheet does not tell whether the region is large enough for a scale of its own.
+    blank=say("μₛ = {mu:.4g} {unit}/mm"),
     scale=say("Minimum radius, μₛ = {mu:.4g} {unit}/mm"),
 )
 PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")

@@ -34,6 +34,10 @@ else:
     G = TypeVar("G", covariant=True)
 
 
+SCALE_NUMBER = say("{mu:.4g}")
+"""The number of a scale in the title of a view."""
+
+
 @dataclass(frozen=True)
 class View:
     """One drawing on the sheet with its own origin.
@@ -43,6 +47,7 @@ class View:
 
     answer : what the title says that is only found by drawing, if anything: a sheet is blank there until the
         construction ``found_by`` is drawn
+    blank : what of the title with its scale is the answer
     scale : its title with its scale, as {mu} and {unit}, {degrees} or {ratio}, if it says that
     mu_l : its drawing scale [mm/mm], where it has one: diagrams have several, and sketches none
     main : whether the title block bears its scale, whatever else stands on the sheet
@@ -54,6 +59,7 @@ class View:
     up: str
     answer: Caption | None = None
     found_by: str = ""
+    blank: Caption = SCALE_NUMBER
     scale: Caption | None = None
     mu_l: float | None = None
     main: bool = False

@@ -147,12 +147,16 @@ class Label(Left):
 
 @dataclass(frozen=True)
 class Dimension(Left):
-    """The length from ``start`` to ``end``, its line moved to the left by ``aside`` mm."""
+    """The length from ``start`` to ``end``, its line moved to the left by ``aside`` mm.
+
+    of_radius : whether it goes from the centre of a circle to it, with a head there alone
+    """
 
     start: complex
     end: complex
     text: Words
     aside: float = 0.0
+    of_radius: bool = False
 
 
 @dataclass(frozen=True)

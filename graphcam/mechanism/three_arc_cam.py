@@ -24,6 +24,7 @@ from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.arc_motion import ArcFlank, ArcMotion
 from graphcam.plane_vectors import dot
 from graphcam.showing import MAX_WIDTH, Plottable, value_text
+from graphcam.subscripts import indexed
 from graphcam.words import Caption, say, sequence
 
 LENGTH_ROUNDING = 4 * float(np.finfo(np.float64).eps)
@@ -102,7 +103,7 @@ def second_centre(given: ThreeArcs) -> complex:
     outward, chord = a / abs(a), a - g
     below = float(dot(outward, chord))  # how far G lies below the base circle's tangent at A
     if abs(below) <= LENGTH_ROUNDING * (abs(a) + abs(g)):
-        remedy = say("move G: an arc that is straight has no centre C2")
+        remedy = say("move G: an arc that is straight has no centre C₂")
         raise DesignError("G", given.G, say("off the tangent of the base circle at A"), remedy)
     # |A - rho2 outward - G| = rho2, the squares of rho2 cancelling.
     return a - outward * abs(chord) ** 2 / (2 * below)
@@ -118,7 +119,7 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
     reach = abs(w) + abs(k)
     if abs(m) <= LENGTH_ROUNDING * reach:
         f, t = g, math.nan
-        why = say("The arcs about C1 and C2 touch in G themselves: there is nothing for a third to join.")
+        why = say("The arcs about C₁ and C₂ touch in G themselves: there is nothing for a third to join.")
     else:
         # The line of centres through F is the line G C2 mirrored in the bisector.
         f = c1 - k * (n - 2 * bend * m / abs(m) ** 2)
@@ -145,12 +146,12 @@ def _base_point(c2: complex, rho2: float, g: complex) -> complex:
 
 
 STRAIGHT_FLANK_REASONS = (
-    say("The flank from G to F is straight: it has no centre C3."),
-    say("The flank from G to F is straight: it has no centre C3, and the profile would turn back in a cusp at F."),
+    say("The flank from G to F is straight: it has no centre C₃."),
+    say("The flank from G to F is straight: it has no centre C₃, and the profile would turn back in a cusp at F."),
 )
 """Why a straight flank is no root: without a cusp, and with one."""
-ORDER_AT_F_REASON = say("On the line of F, C1 and C3 the order is {order} instead of F, C1, C3: {reason}.")
-ORDER_AT_G_REASON = say("On the line of G, C3 and C2 the order is {order} instead of G, C3, C2: {reason}.")
+ORDER_AT_F_REASON = say("On the line of F, C₁ and C₃ the order is {order} instead of F, C₁, C₃: {reason}.")
+ORDER_AT_G_REASON = say("On the line of G, C₃ and C₂ the order is {order} instead of G, C₃, C₂: {reason}.")
 
 
 def _root_reason(k: float, t: float, rho2: float) -> Caption:
@@ -169,11 +170,11 @@ def _root_reason(k: float, t: float, rho2: float) -> Caption:
         said.append(replace(ORDER_AT_G_REASON, values={"order": _order(G=0.0, C3=t, C2=rho2), "reason": reason}))
     if said:
         return sequence(said, " ")
-    return say("F, C1, C3 and G, C3, C2 lie in these orders: the arcs touch internally at F and at G.")
+    return say("F, C₁, C₃ and G, C₃, C₂ lie in these orders: the arcs touch internally at F and at G.")
 
 
 def _order(**places: float) -> str:
-    return ", ".join(sorted(places, key=lambda name: places[name]))
+    return ", ".join(indexed(name) for name in sorted(places, key=lambda name: places[name]))
 
 
 def _xy(z: complex) -> Floats:

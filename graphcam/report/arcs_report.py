@@ -25,13 +25,14 @@ from graphcam.report.sheet_contents import Contents, scaled_steps, title_block
 from graphcam.report.sheet_data import ADOPTED_LABEL, GIVEN_LABEL, Row, comparison, data_table, mm, speed
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import ArcsSolution
+from graphcam.subscripts import indexed
 from graphcam.words import Caption, Words, say, sequence
 
 CASE_CAPTIONS = {
-    1: say("both centres C1 and C2 are given"),
-    2: say("C1 is given, and C2 is found on the line OA"),
-    3: say("C2 is given, and C1 is found on the line OD"),
-    4: say("C1 is found on the line OD and C2 on the line OA"),
+    1: say("both centres C₁ and C₂ are given"),
+    2: say("C₁ is given, and C₂ is found on the line OA"),
+    3: say("C₂ is given, and C₁ is found on the line OD"),
+    4: say("C₁ is found on the line OD and C₂ on the line OA"),
 }
 IMPACT_NOTE = say(
     "The arcs touch, so the velocity is continuous, and the acceleration jumps where one arc meets the next: the "
@@ -66,9 +67,9 @@ def _data(solution: ArcsSolution) -> Table:
     points = {name: getattr(given, name) for name in ("A", "D", "G", "C1", "C2")}
     found = [name for name, point in points.items() if point is None and name != "A"] + ["C3", "F"]
     rows: list[Row] = [
-        *((name, _xy(point), GIVEN_LABEL) for name, point in points.items() if point is not None),
+        *((indexed(name), _xy(point), GIVEN_LABEL) for name, point in points.items() if point is not None),
         ("ρ₁", mm(given.rho1), GIVEN_LABEL),
-        *((name, _xy([float(arcs.value(f"{name}_{axis}")) for axis in "xy"]), DRAWN_LABEL) for name in found),
+        *((indexed(name), _xy([float(arcs.value(f"{name}_{axis}")) for axis in "xy"]), DRAWN_LABEL) for name in found),
         *((name, _radius(float(arcs.value(key))), DRAWN_LABEL) for name, key in (("ρ₂", "rho2"), ("ρ₃", "rho3"))),
         (say("upper dwell"), say("{angle:g}°", angle=task.arcs.dwell), GIVEN_LABEL),
         (say("roller radius"), mm(task.follower.roller_radius), GIVEN_LABEL),
@@ -96,12 +97,12 @@ def arcs_note(solution: ArcsSolution) -> str:
     """The note of a cam of arcs, in Markdown.
 
     >>> import graphcam as gc
-    >>> "C1, F, C3 instead of F, C1, C3" in arcs_note(gc.solve(gc.builtin_arcs_task()))
+    >>> "C₁, F, C₃ instead of F, C₁, C₃" in arcs_note(gc.solve(gc.builtin_arcs_task()))
     True
     """
     case = solution.task.arcs().design_case
     designed = say(
-        "The flank of a disk cam is to consist of three circular arcs: AG about C2, GF about C3 and FD about C1. It is "
+        "The flank of a disk cam is to consist of three circular arcs: AG about C₂, GF about C₃ and FD about C₁. It is "
         "the design case {case} of Lanni, Ceccarelli and Figliolini (2002): {told}. The cam moves a central "
         "translating follower; the return is the mirror image of the rise.",
         case=case,
@@ -126,8 +127,8 @@ def _roots(solution: ArcsSolution) -> list[Block]:
     rows = [_root(say("first"), first), _root(say("second"), second)]
     why = say("- The first root: {why}", why=first.reason), say("- The second root: {why}", why=second.reason)
     return [
-        say("Two circles about points of the line G C2 touch the circle about C1."),
-        Grid(say("Both roots, exactly"), (say("root"), "C3", "F", "ρ₃", say("valid")), rows),
+        say("Two circles about points of the line G C₂ touch the circle about C₁."),
+        Grid(say("Both roots, exactly"), (say("root"), "C₃", "F", "ρ₃", say("valid")), rows),
         sequence(why, "\n"),
     ]
 

@@ -1,6 +1,7 @@
 """The documents of a solution, whichever kind of task it solves, at a scale for which a page has room."""
 
 import re
+from contextlib import suppress
 from dataclasses import replace
 from html import escape
 from importlib import resources
@@ -12,8 +13,9 @@ from graphcam.report.arcs_report import arcs_contents, arcs_note
 from graphcam.report.markdown import FORMULA_PATTERN
 from graphcam.report.mechanism_view import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
+from graphcam.report.own_scales import with_own_scales
 from graphcam.report.sheet_contents import Contents, all_constructions, motion_contents, scaled_steps
-from graphcam.sheets.layout import compose_parts
+from graphcam.sheets.layout import compose_pages
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.page_filling import DIAGRAM_GAPS, TooLargeError
 from graphcam.sheets.page_space import fits_on_sheet
@@ -147,16 +149,16 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
     >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
     (True, True)
     """
-    return drawing_of(contents_of(solution), upto, per_construction=per_construction)
+    return drawing_of(contents_of(solution, per_construction=per_construction), upto, per_construction=per_construction)
 
 
 def drawing_of(contents: Contents, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
     """The sheets of contents that are made already; see :func:`sheet_of`."""
     paper = contents.solution.task.drawing
     last = None if upto is None else contents.last_step(upto)
-    drawn = contents.parts if per_construction else [contents.as_one_part]
+    pages = contents.pages(per_construction=per_construction)
     try:
-        return compose_parts(drawn, contents.title, format_of(paper), last, paper.tell)
+        return compose_pages(pages, contents.title, format_of(paper), last, paper.tell)
     except TooLargeError:
         # What the task gives may be to blame: then it is named.
         if isinstance(contents.solution, Solution):
@@ -189,8 +191,10 @@ def _check_enlarged_radius(solution: Solution) -> None:
     raise DesignError(field, say("{length:g} mm", length=size), limit, remedy)
 
 
-def contents_of(solution: AnySolution) -> Contents:
-    """The contents of the sheets of a solution.
+def contents_of(solution: AnySolution, *, per_construction: bool = False) -> Contents:
+    """The contents of the sheets of a solution, in the largest standard scales for which their pages have room.
+
+    Its solution is drawn in these.
 
     Raises
     ------
@@ -199,7 +203,11 @@ def contents_of(solution: AnySolution) -> Contents:
     if isinstance(solution, ArcsSolution):
         return arcs_contents(solution)
     check_profile_strokes(solution)
-    return motion_contents(solution)
+    contents = motion_contents(solution)
+    with suppress(TooLargeError):
+        redrawn = with_own_scales(solution, contents.pages(per_construction=per_construction))
+        return contents if redrawn is solution else motion_contents(redrawn)
+    return contents
 
 
 def note_of(solution: AnySolution) -> str:

@@ -109,7 +109,8 @@ def write(
     cutting = CUTTING_KINDS if part and part.given.groove_depth is None else ()
     wanted = _wanted_kinds(files, finished=finished, usual=(*DEFAULT_KINDS, *cutting))
     written: dict[str, str | None] = dict.fromkeys(FILE_KINDS)
-    contents = contents_of(solution)
+    contents = contents_of(solution, per_construction=per_construction)
+    solution = contents.solution
     with whole_folder(directory, written_before(Path(directory), SOLUTION_FILE)) as folder:
         sheets = [kind for kind in SHEET_KINDS if kind in wanted]
         drawing = None

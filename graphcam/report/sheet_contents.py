@@ -14,12 +14,12 @@ from graphcam.drafting.scale import ratio_text, unit
 from graphcam.errors import DesignError, suggestion
 from graphcam.mechanism.cam import Cam
 from graphcam.report.sheet_data import comparison, conditions_on_sheet, data, phases_at_speed
-from graphcam.sheets.layout import Numbered, SheetPart
+from graphcam.sheets.layout import Numbered, PagesOfPart, SheetPart
 from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import MAX_OVERSIZE, check_given_sizes
+from graphcam.solving.task_board import MAX_OVERSIZE, check_given_sizes, format_of
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
@@ -75,6 +75,22 @@ class Contents:
         """A part for each construction that draws something, with what was drawn before in its views."""
         drawing = list(dict.fromkeys(name for _, name, step in self.steps if step.marks))
         return [self._part(name, first=name == drawing[0], last=name == drawing[-1]) for name in drawing]
+
+    def pages(self, *, per_construction: bool = False) -> list[PagesOfPart]:
+        """The pages of all contents, or of each construction; what has been found on them is kept."""
+        return self._pages_by_construction if per_construction else self._pages_of_all
+
+    @cached_property
+    def _pages_of_all(self) -> list[PagesOfPart]:
+        return self._laid_out([self.as_one_part])
+
+    @cached_property
+    def _pages_by_construction(self) -> list[PagesOfPart]:
+        return self._laid_out(self.parts)
+
+    def _laid_out(self, parts: Iterable[SheetPart]) -> list[PagesOfPart]:
+        drawing = self.solution.task.drawing
+        return [PagesOfPart(format_of(drawing), part.translated(drawing.tell)) for part in parts]
 
     def _part(self, construction: str, *, first: bool, last: bool) -> SheetPart:
         own = [(number, step) for number, name, step in self.steps if name == construction]
@@ -217,14 +233,15 @@ def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str
 
 def _with_scale_title(step: Step, by: Construction | None) -> Step:
     """The step with its view's title; the scale in it is an answer if drawing finds it."""
-    if by is None:
+    # A view may have a scale of its own already.
+    if by is None or step.view.mu_l is not None:
         return step
     view, read = step.view, by.readings[by.meaning.scales[step.view.name]]
     mu = read.per_mm
+    values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
     if view.scale is not None:
-        values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
         mu_l = mu if view.main else None
         view = replace(view, title=view.scale.with_values(mu=mu, **values), mu_l=mu_l)
     if found_by := by.meaning.scales_found_by:
-        view = replace(view, answer=say("{mu:.4g}", mu=view.title.values["mu"]), found_by=found_by)
+        view = replace(view, answer=view.blank.with_values(mu=mu, **values), found_by=found_by)
     return replace(step, view=view)

@@ -88,7 +88,7 @@ def _measurable(measured: Length | Angle) -> bool:
 
 def _stands_along(text: Text, measured: Length | Angle) -> bool:
     """Whether a text stands along its dimension line, where every reader sets it, in one piece."""
-    if isinstance(measured, Angle) or len(letters_of(text.text, text.height)) > 1:
+    if isinstance(measured, Angle) or measured.of_radius or len(letters_of(text.text, text.height)) > 1:
         return False
     across = cmath.rect(1.0, text.angle) / (measured.end - measured.start)
     return abs(across.imag) < PARALLEL * abs(across)
@@ -135,6 +135,10 @@ def _add_dimension(
 def _add_length(space: Modelspace, measured: Length, left: float, told: dict[str, Any]) -> DimStyleOverride:
     start, end, foot = (xy(point + left) for point in (measured.start, measured.end, measured.foot))
     slope = math.degrees(cmath.phase(measured.end - measured.start))
+    if measured.of_radius:
+        # Its text stands beside it.
+        told = {name: value for name, value in told.items() if name not in ("location", "text_rotation")}
+        return space.add_radius_dim(center=start, mpoint=end, radius=abs(measured.end - measured.start), **told)
     return space.add_linear_dim(foot, start, end, angle=slope, **told)
 
 

@@ -12,8 +12,9 @@ agrees line for line.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -24,7 +25,7 @@ from graphcam.sheets.labels import lettered_steps, shading_parted
 from graphcam.sheets.mark_entities import Drawn, Placement, expand
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
-from graphcam.sheets.page_filling import ONE_PAGE, fill, min_pages
+from graphcam.sheets.page_filling import ONE_PAGE, fill, has_room, min_pages
 from graphcam.sheets.page_space import FRAME_MARGIN, OpenPage
 from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, taken_boxes, title_box
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
@@ -107,13 +108,19 @@ def compose_parts(
         tables nor notes.  None for a finished sheet.
     tell : translates all texts into the language of the sheets
     """
-    parts = [part.translated(tell) for part in parts]
-    laid_out = [(part, leaf) for part in parts for leaf in _filled_pages(sheet, part)]
+    return compose_pages([PagesOfPart(sheet, part.translated(tell)) for part in parts], title, sheet, upto, tell)
+
+
+def compose_pages(
+    pages: Sequence[PagesOfPart], title: TitleBlock, sheet: Format, upto: int | None = None, tell: Tell = str
+) -> Drawing:
+    """Lay out parts whose pages may be found already; see :func:`compose_parts`."""
+    laid_out = [(each.part, leaf) for each in pages for leaf in each.filled]
     titles = [_with_scale(title, leaf, tell) for _, leaf in laid_out]
     sheets = [empty_sheet(sheet, each, k, len(laid_out), tell) for k, each in enumerate(titles, 1)]
     shown = math.inf if upto is None else upto
-    pages = [_page(sheet, leaf, part, empty, shown) for (part, leaf), empty in zip(laid_out, sheets, strict=True)]
-    return Drawing(title.name, tuple(pages))
+    drawn = [_page(sheet, leaf, part, empty, shown) for (part, leaf), empty in zip(laid_out, sheets, strict=True)]
+    return Drawing(title.name, tuple(drawn))
 
 
 def _with_scale(title: TitleBlock, leaf: OpenPage, tell: Tell) -> TitleBlock:
@@ -151,7 +158,7 @@ def views_of_pages(sheet: Format, part: SheetPart) -> list[list[str]]:
     ------
     DesignError : a view does not fit on a page of its own
     """
-    return [list(leaf.views) for leaf in _filled_pages(sheet, part)]
+    return [list(leaf.views) for leaf in PagesOfPart(sheet, part).filled]
 
 
 def fewest_pages(sheet: Format, part: SheetPart) -> int:
@@ -159,25 +166,54 @@ def fewest_pages(sheet: Format, part: SheetPart) -> int:
     return min_pages(sheet, panels((step for _, _, step in part.steps), sheet.lettering))
 
 
-def _filled_pages(sheet: Format, part: SheetPart) -> list[OpenPage]:
-    views = panels((step for _, _, step in part.steps), sheet.lettering)
-    heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
-    ways: list[list[Block]] = []
-    for height in heights:
-        blocks = _blocks(sheet, part, height)
-        # In their own order, and the largest first, which finds room for more.
-        ways += [blocks, sorted(blocks, key=lambda block: -block.box.width * block.box.height)]
-    return fill(sheet, views, ways)
+class PagesOfPart:
+    """The pages of a part, translated, and what they would have room for.
+
+    >>> from graphcam.drafting.marks import Line, Role
+    >>> line = Line(np.array([0j, 100 + 50j]), Role.CURVE)
+    >>> step = Step(say("A line"), (), View("line", say("Line"), "x", "y"), (line,), why=say("To see it."))
+    >>> pages = PagesOfPart(Format("A4", "iso"), SheetPart(((1, "line", step),)))
+    >>> pages.have_room({"line": 1.5}), pages.have_room({"line": 4.0})
+    (True, False)
+    """
+
+    def __init__(self, sheet: Format, part: SheetPart) -> None:
+        self.part, self._sheet = part, sheet
+        self._views, self._ways = panels((step for _, _, step in part.steps), sheet.lettering), _blocks(sheet, part)
+
+    @cached_property
+    def filled(self) -> list[OpenPage]:
+        """The pages with all that stands on them.
+
+        Raises
+        ------
+        DesignError : a view does not fit on a page of its own
+        """
+        return fill(self._sheet, self._views, self._ways)
+
+    def have_room(self, times: Mapping[str, float], together: Collection[str] = ()) -> bool:
+        """Whether as many pages have room with views so many times as large, by name, each of them on its own.
+
+        together : the names of views that may not stand on more pages than now
+        """
+        views = [panel.enlarged(times.get(panel.view.name, 1.0)) for panel in self._views]
+        most = sum(not leaf.views.keys().isdisjoint(together) for leaf in self.filled)
+        return has_room(self._sheet, views, self._ways, len(self.filled), (together, most))
 
 
-def _blocks(sheet: Format, part: SheetPart, height: float) -> list[Block]:
+def _blocks(sheet: Format, part: SheetPart) -> list[list[Block]]:
+    """Tables and notes in letters of different heights and in different orders, the best first."""
     # Room is found on a grid: a cell is lost at either edge.
     room = sheet.content.width - 2 * FRAME_MARGIN - 2 * MESH
     tall = sheet.content.height - title_box(sheet).height - FURNITURE_HEIGHT
-    blocks = [block for table in part.tables for block in table_blocks(table, height, room, tall)]
-    if part.notes:
-        blocks.append(notes_block(part.notes, height, min(NOTES_WIDTH, room)))
-    return blocks
+    ways: list[list[Block]] = []
+    for height in sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True):
+        blocks = [block for table in part.tables for block in table_blocks(table, height, room, tall)]
+        if part.notes:
+            blocks.append(notes_block(part.notes, height, min(NOTES_WIDTH, room)))
+        # In their own order, and the largest first, which finds room for more.
+        ways += [blocks, sorted(blocks, key=lambda block: -block.box.width * block.box.height)]
+    return ways
 
 
 @dataclass(frozen=True, eq=False)

@@ -180,12 +180,16 @@ def _dimension(mark: marks.Dimension, place: Placement, text: str, height: float
         drawn.append(
             Strokes(origins + EXTENSION_GAP * away, origins + aside + EXTENSION_OVERRUN * away, Role.DIMENSION)
         )
-    tail, outwards = (0.0, direction) if length >= MIN_INNER_HEADS else (TAIL_LENGTH, -direction)
-    line = np.array([foot - tail * direction, tip + tail * direction])
+    inside = length >= (MIN_INNER_HEADS / 2 if mark.of_radius else MIN_INNER_HEADS)
+    tail, outwards = (0.0, direction) if inside else (TAIL_LENGTH, -direction)
+    line = np.array([foot - (0.0 if mark.of_radius else tail) * direction, tip + tail * direction])
     drawn.append(Strokes(line[:1], line[1:], Role.DIMENSION))
-    drawn += [head(foot, -outwards, Role.DIMENSION), head(tip, outwards, Role.DIMENSION)]
+    drawn += [] if mark.of_radius else [head(foot, -outwards, Role.DIMENSION)]
+    drawn.append(head(tip, outwards, Role.DIMENSION))
     standing = label_along if extent(text, height)[0] + 1.0 <= length else label_over
-    return drawn, [replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn)))]
+    return drawn, [
+        replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn), mark.of_radius))
+    ]
 
 
 def _angle(mark: marks.AngleMark, place: Placement, text: str, height: float) -> Drawn:

@@ -181,12 +181,16 @@ class Heads(Polygons):
 
 @dataclass(frozen=True, eq=False)
 class Length:
-    """The length that a dimension measures: from ``start`` to ``end``, its line through ``foot``, by ``lines``."""
+    """The length that a dimension measures: from ``start`` to ``end``, its line through ``foot``, by ``lines``.
+
+    of_radius : whether ``start`` is the centre of a circle, and only ``end`` has a head
+    """
 
     start: complex
     end: complex
     foot: complex
     lines: tuple[Entity, ...]
+    of_radius: bool = False
 
 
 @dataclass(frozen=True, eq=False)

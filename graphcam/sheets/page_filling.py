@@ -13,9 +13,9 @@ Then diagrams stand as far apart as no further page is needed for it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import count, pairwise, product
+from itertools import count, islice, pairwise, product
 
 from graphcam.errors import DesignError
 from graphcam.sheets.formats import Format
@@ -189,7 +189,7 @@ class CutViews:
 
     def __init__(self, sheet: Format, views: Sequence[Panel]) -> None:
         self.sheet, self.views = sheet, views
-        self._room = sheet.content.area - kept_area(sheet)
+        self.room = sheet.content.area - kept_area(sheet)
         self._areas = [panel.box.area for panel in views]
         self._found: dict[tuple[int, int], tuple[Way, OpenPage] | None] = {}
         self._shares: dict[tuple[int, int], float] = {}
@@ -211,7 +211,7 @@ class CutViews:
 
     def _most(self, start: int, end: int) -> float:
         """The area of boxes for which a page may have room."""
-        return self._room * (MAX_CLOSE_SHARE if self._closely(start, end) else MAX_BOXES_SHARE)
+        return self.room * (MAX_CLOSE_SHARE if self._closely(start, end) else MAX_BOXES_SHARE)
 
     def parted(self, cut: int) -> int:
         """The number of axes that views before a cut and behind it share."""
@@ -223,7 +223,7 @@ class CutViews:
 
     def cuts(self, pages: int) -> list[tuple[int, ...]]:
         """The best cuts into so many pages, the last of which may have no view: where each begins, and the end."""
-        end, most = len(self.views), self._room * MAX_BOXES_SHARE
+        end, most = len(self.views), self.room * MAX_BOXES_SHARE
         best: dict[int, list[tuple[float, tuple[int, ...]]]] = {0: [(0.0, (0,))]}
         for number in range(1, pages + 1):
             last = number == pages
@@ -298,34 +298,68 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
         if not fits_on_sheet(sheet, [panel], DIAGRAM_GAPS[-1]):
             raise _too_large(sheet, panel)
     cut_views = CutViews(sheet, views)
-    # On one page all settings of the same tables come to the same.
-    settings = [BlockSetting(blocks, emptiest) for blocks, emptiest in product(ways_of_blocks, (False, True))]
     for pages in count(min_pages(sheet, views)):
-        tried = settings if pages > 1 else settings[::2]
-        if found := _filled(cut_views, cut_views.cuts(pages), tried):
+        if found := _filled(cut_views, cut_views.cuts(pages), _settings(ways_of_blocks, pages)):
             return [page.spread() for page in found]
     raise AssertionError("pages without end take everything")
+
+
+def has_room(
+    sheet: Format,
+    views: Sequence[Panel],
+    ways_of_blocks: Sequence[Sequence[Block]],
+    pages: int,
+    together: tuple[Collection[str], int],
+) -> bool:
+    """Whether so many pages have room for all views and blocks; see :func:`fill`.
+
+    together : the names of views that stand on so many of them at most
+    """
+    cut_views, (names, most) = CutViews(sheet, views), together
+    if sum(panel.box.area for panel in views) > pages * cut_views.room * MAX_BOXES_SHARE:
+        return False
+
+    def spread(cut: tuple[int, ...]) -> int:
+        """The number of pages of a cut with these views."""
+        return sum(any(panel.view.name in names for panel in views[start:stop]) for start, stop in pairwise(cut))
+
+    cuts = [cut for cut in cut_views.cuts(pages) if spread(cut) <= most]
+    return any(_with_all_blocks(cut_views, cuts, _settings(ways_of_blocks, pages)))
+
+
+def _settings(ways_of_blocks: Sequence[Sequence[Block]], pages: int) -> list[BlockSetting]:
+    settings = [BlockSetting(blocks, emptiest) for blocks, emptiest in product(ways_of_blocks, (False, True))]
+    # On one page all settings of the same tables come to the same.
+    return settings if pages > 1 else settings[::2]
 
 
 def _filled(
     cut_views: CutViews, cuts: Sequence[tuple[int, ...]], settings: Sequence[BlockSetting]
 ) -> list[OpenPage] | None:
     """The best of the pages into which the views are cut, with tables, and with the widest gaps; None without room."""
-    found: list[tuple[float, int, BlockSetting, list[OpenPage]]] = []
-    for k, cut in enumerate(cuts):
+    found = [
+        (_cost_of(cut_views, cut, pages), k, cut, setting, pages)
+        for k, (cut, setting, pages) in enumerate(_with_all_blocks(cut_views, cuts, settings))
+    ]
+    if not found:
+        return None
+    least, _, cut, setting, best = min(found, key=lambda each: each[:2])
+    for gap in DIAGRAM_GAPS[:-1]:
+        wider = _with_blocks(_pages_of(cut_views, cut, gap), setting)
+        if wider and _cost_of(cut_views, cut, wider) <= least + SAME_COST:
+            return wider
+    return best
+
+
+def _with_all_blocks(
+    cut_views: CutViews, cuts: Sequence[tuple[int, ...]], settings: Sequence[BlockSetting]
+) -> Iterator[tuple[tuple[int, ...], BlockSetting, list[OpenPage]]]:
+    """The pages of cuts with all blocks, in the first setting that has room, on the emptiest page or not."""
+    for cut in cuts:
         closest = _pages_of(cut_views, cut, DIAGRAM_GAPS[-1])
         for emptiest in sorted({setting.emptiest for setting in settings}):
             tried = ((each, _with_blocks(closest, each)) for each in settings if each.emptiest == emptiest)
-            if of_cut := next(((setting, pages) for setting, pages in tried if pages), None):
-                found.append((_cost_of(cut_views, cut, of_cut[1]), k, *of_cut))
-    if not found:
-        return None
-    least, k, setting, best = min(found, key=lambda each: each[:2])
-    for gap in DIAGRAM_GAPS[:-1]:
-        wider = _with_blocks(_pages_of(cut_views, cuts[k], gap), setting)
-        if wider and _cost_of(cut_views, cuts[k], wider) <= least + SAME_COST:
-            return wider
-    return best
+            yield from islice(((cut, setting, pages) for setting, pages in tried if pages), 1)
 
 
 def _pages_of(cut_views: CutViews, cut: tuple[int, ...], gap: float) -> list[OpenPage]:

@@ -32,7 +32,7 @@ LINE_SPACING = 1.7
 class Panel:
     """A view with everything that is drawn in it; its boxes are about the view's origin.
 
-    factor : the reduction on a screen; on paper it is 1
+    factor : the reduction on a screen, or a trial enlargement; on paper it is 1
     under : marks that it has only where no view of the same column stands below
     lowest : whether no view of the same column stands below
     """
@@ -53,6 +53,11 @@ class Panel:
     def as_lowest(self) -> "Panel":
         """The panel as the lowest of its column."""
         return replace(self, lowest=True) if self.under else self
+
+    def enlarged(self, times: float) -> "Panel":
+        """The panel with its drawing so many times as large, and then in no column or row with others."""
+        own = replace(self.view, across=self.view.name, up=self.view.name)
+        return self if times == 1.0 else replace(self, factor=times * self.factor, view=own)
 
     @cached_property
     def _entities(self) -> list[Entity]:

@@ -43,7 +43,8 @@ class ShownSolution(Plottable):
         """Write the sheet, the step player, the tables, the note and the profile into a folder: all of them, or none.
 
         The folder is the run's: what the run before wrote into it and this one does not goes, unless somebody has
-        changed it since.  Other files stay as they are.
+        changed it since.  Other files stay as they are.  All of them are of the drawing on the sheets, where the region
+        of the minimum radius and the profile have the largest standard scales for which the pages have room.
 
         files : a list of kinds; ``solution.json``, which names the others, always comes along.  The sheet is "pdf",
             "svg", "png" and "dxf"; the table of drawn against exact values "csv" and "md"; the note "note"

@@ -147,8 +147,8 @@ def test_a_second_arc_that_is_almost_straight_leaves_nothing_to_draw():
     assert np.isnan(chain["three_arcs"].value("C2_y"))
     assert np.isnan(chain["arc_diagrams"].value("max_a"))
     captions = [str(step.caption) for construction in chain.values() for step in construction.steps()]
-    assert any("C2 cannot be read" in caption for caption in captions)
-    assert any("centre that can be read (C2 and C3)" in caption for caption in captions)
+    assert any("C₂ cannot be read" in caption for caption in captions)
+    assert any("centre that can be read (C₂ and C₃)" in caption for caption in captions)
 
 
 @every_hand
@@ -185,11 +185,11 @@ def test_every_step_says_what_is_drawn_and_draws_it(name, pencil):
 def test_captions_carry_the_numbers_of_the_example():
     said = " ".join(str(step.caption) for c in ArcChain(board_of(EXAMPLE)).values() for step in c.steps())
     for part in (
-        "G = (22.24, 37.84) mm", "C3 = (12.003, -14.394) mm", "F = (46.834, 25.855) mm", "C3′ = (20.977, 31.395) mm",
-        "F, C1, C3 and G, C3, C2: the arcs touch internally", "26.888° at G", "which is 15.004 mm",
+        "G = (22.24, 37.84) mm", "C₃ = (12.003, -14.394) mm", "F = (46.834, 25.855) mm", "C₃′ = (20.977, 31.395) mm",
+        "F, C₁, C₃ and G, C₃, C₂: the arcs touch internally", "26.888° at G", "which is 15.004 mm",
     ):  # fmt: skip
         assert part in said, part
-    for name, part in (("case 2", "Bisect AG: compass 35.75 mm"), ("case 3", "step 34.00 mm off from D towards O: C1")):
+    for name, part in (("case 2", "Bisect AG: compass 35.75 mm"), ("case 3", "step 34.00 mm off from D towards O: C₁")):
         drawn = ArcChain(board_of(CASES[name]))["three_arcs"]
         assert part in " ".join(str(step.caption) for step in drawn.steps())
 

@@ -152,12 +152,12 @@ def test_the_first_circle_touches_the_outer_one_in_d(name):
     assert abs(end - d) == pytest.approx(OVERHANG)
     assert abs(end) > abs(d)
     assert max(abs(across(end, c1)), abs(across(end, d))) < tolerance(name)
-    assert (str(label.text), label.at) == ("C1", c1)
+    assert (str(label.text), label.at) == ("C₁", c1)
     assert is_outward(label, d)
-    assert abs(told(step, "C1") - c1 * mu) < max(tolerance(name), 0.001)
+    assert abs(told(step, "C₁") - c1 * mu) < max(tolerance(name), 0.001)
     set_to = [float(found) for found in re.findall(r"compass ([\d.]+) mm", str(step.caption))]
     assert set_to == pytest.approx([data["rho1"] / mu, abs(d)], abs=0.006)
-    assert ("C1" in data) == ("D is the one beyond C1" in str(step.caption))
+    assert ("C1" in data) == ("D is the one beyond C₁" in str(step.caption))
     assert ("C1" not in data) == ("from D towards O" in str(step.caption))
 
 
@@ -173,21 +173,21 @@ def test_the_second_centre_is_as_far_from_a_as_from_g_and_lies_on_a_line_through
     assert abs(axis.points[0]) > abs(a)
     assert abs(a - c2) > abs(c2)  # O lies between them
     assert abs(base.centre) + abs(base.radius - abs(a)) < tolerance(name)
-    assert abs(told(step, "C2") - c2 * mu) < max(tolerance(name), 0.001)
+    assert abs(told(step, "C₂") - c2 * mu) < max(tolerance(name), 0.001)
     (swept,) = all_of(step, Arc)
     assert abs(swept.centre - c2) + abs(swept.radius - abs(g - c2)) < tolerance(name)
     more = OVERHANG / swept.radius
     (low, high), ends = sorted((cmath.phase(g - c2), cmath.phase(a - c2))), (swept.start + more, swept.end - more)
     assert ends == pytest.approx((low, high), abs=max(1e-6, tolerance(name) / 50))
-    paper, factor, rho2 = (float(x) for x in re.findall(r"C2 G = (\S+) mm × (\S+) = (\S+) mm", str(step.caption))[0])
+    paper, factor, rho2 = (float(x) for x in re.findall(r"C₂ G = (\S+) mm × (\S+) = (\S+) mm", str(step.caption))[0])
     assert (paper, factor) == (pytest.approx(abs(c2 - g), abs=0.006), mu)
     assert rho2 == pytest.approx(abs(c2 - g) * mu, abs=0.001)
     assert numbers(step)[-1] == pytest.approx(abs(a), abs=0.006)
     if "C2" not in data:
         (compass,) = re.findall(r"Bisect AG: compass (\S+) mm", str(step.caption))
         assert float(compass) == pytest.approx(0.8 * abs(g - complex(*data["A"]) / mu), abs=max(0.006, tolerance(name)))
-    assert named(step, "C2").at == c2
-    assert is_outward(named(step, "C2"))
+    assert named(step, "C₂").at == c2
+    assert is_outward(named(step, "C₂"))
     assert ("A" in data) or named(step, "A").at == a
     assert bool(bisected) == ("C2" not in data)
     if bisected:
@@ -213,13 +213,13 @@ ROOTS = over_all(("prime", "at"), [("", 3), ("′", 5)])
 @ROOTS
 def test_the_third_centre_is_as_far_from_p_as_from_c1_on_the_line_through_g_and_c2(name, prime, at):
     drawn, mu, near = steps(name, "three_arcs"), per_mm(name), tolerance(name)
-    step, g, c1, c2 = drawn[at], named(drawn[0], "G").at, named(drawn[1], "C1").at, named(drawn[2], "C2").at
+    step, g, c1, c2 = drawn[at], named(drawn[0], "G").at, named(drawn[1], "C₁").at, named(drawn[2], "C₂").at
     p, c3 = plotted(step)[:2]
     side = -1 if prime else 1
     assert str(step.title) == ("The other root" if prime else "The third centre")
     rho1 = BOARDS[name][0]["rho1"] / mu
-    first = f"Set the dividers to {rho1:.2f} mm, ρ₁, and lay it off on the line G C2 from G"
-    assert captions(step)[0] == f"{first} {'away from' if prime else 'towards'} C2: P{prime}."
+    first = f"Set the dividers to {rho1:.2f} mm, ρ₁, and lay it off on the line G C₂ from G"
+    assert captions(step)[0] == f"{first} {'away from' if prime else 'towards'} C₂: P{prime}."
     (compass,) = re.findall(r"compass (\S+) mm", str(step.caption))
     assert float(compass) == pytest.approx(0.8 * abs(p - c1), abs=0.006)
     assert abs((p - g) / (c2 - g) * abs(c2 - g) - side * BOARDS[name][0]["rho1"] / mu) < near
@@ -230,10 +230,10 @@ def test_the_third_centre_is_as_far_from_p_as_from_c1_on_the_line_through_g_and_
     farthest = max(((a, b) for a in (g, p, c3) for b in (g, p, c3)), key=lambda pair: abs(pair[0] - pair[1]))
     assert set(the(line.points)) == set(farthest)
     assert {mark.role for mark in all_of(step, Line)} == {Role.HIDDEN if prime else Role.CONSTRUCTION}
-    for point, place in ((f"P{prime}", p), (f"C3{prime}", c3)):
+    for point, place in ((f"P{prime}", p), (f"C₃{prime}", c3)):
         assert named(step, point).at == place
         assert is_outward(named(step, point))
-    assert abs(told(step, f"C3{prime}") - c3 * mu) < 0.001
+    assert abs(told(step, f"C₃{prime}") - c3 * mu) < 0.001
     ((paper, factor, rho3),) = re.findall(r"G = (\S+) mm × (\S+) = (\S+) mm", str(step.caption))
     assert (float(paper), float(factor)) == (pytest.approx(abs(c3 - g), abs=0.006), mu)
     assert float(rho3) == pytest.approx(abs(c3 - g) * mu, abs=0.001)
@@ -245,10 +245,10 @@ def test_the_arcs_touch_on_their_line_of_centres(name, prime, at):
     drawn, mu, near = steps(name, "three_arcs"), per_mm(name), tolerance(name)
     step, g, c1, c2 = (
         drawn[at if prime else at + 1],
-        *(named(drawn[k], text).at for k, text in enumerate(("G", "C1", "C2"))),
+        *(named(drawn[k], text).at for k, text in enumerate(("G", "C₁", "C₂"))),
     )
-    c3, f, line = named(drawn[at], f"C3{prime}").at, plotted(step)[-1], all_of(step, Line)[-1]
-    (far,) = re.findall(r"The crossing (\S+) mm from C3", str(step.caption))
+    c3, f, line = named(drawn[at], f"C₃{prime}").at, plotted(step)[-1], all_of(step, Line)[-1]
+    (far,) = re.findall(r"The crossing (\S+) mm from C₃", str(step.caption))
     assert float(far) == pytest.approx(abs(g - c3), abs=0.006)
     assert abs(across(c1 - c3, f - c3)) < near
     assert abs(abs(f - c1) - BOARDS[name][0]["rho1"] / mu) < near
@@ -259,7 +259,7 @@ def test_the_arcs_touch_on_their_line_of_centres(name, prime, at):
     assert named(step, f"F{prime}").at == f
     assert is_outward(named(step, f"F{prime}"))
     assert abs(told(step, f"F{prime}") - f * mu) < 0.001
-    for order in ([(f"F{prime}", f), ("C1", c1), (f"C3{prime}", c3)], [("G", g), (f"C3{prime}", c3), ("C2", c2)]):
+    for order in ([(f"F{prime}", f), ("C₁", c1), (f"C₃{prime}", c3)], [("G", g), (f"C₃{prime}", c3), ("C₂", c2)]):
         (_, first), *_, (_, last) = order
         places = sorted(order, key=lambda pair: ((pair[1] - first) / (last - first)).real)
         assert ", ".join(text for text, _ in places) in str(step.caption)
@@ -299,7 +299,7 @@ def test_the_profile_is_made_of_arcs_that_touch_and_of_their_mirror_images(name)
     drawn, mu = steps(name, "three_arcs"), per_mm(name)
     step, dwell = drawn[-1], dwell_of(name)
     arcs, g, f = all_of(step, Arc), named(drawn[0], "G").at, named(drawn[4], "F").at
-    centres = {text: named(drawn[k], text).at for k, text in ((2, "C2"), (3, "C3"), (1, "C1"))}
+    centres = {text: named(drawn[k], text).at for k, text in ((2, "C₂"), (3, "C₃"), (1, "C₁"))}
     for (arc, _), centre in zip(pairs(arcs), centres.values(), strict=True):
         assert abs(arc.centre - centre) < tolerance(name)
     for joint, (one, _), (other, _) in zip((g, f), pairs(arcs), pairs(arcs)[1:], strict=False):
@@ -311,13 +311,13 @@ def test_the_profile_is_made_of_arcs_that_touch_and_of_their_mirror_images(name)
     assert (len(arcs) == 8) == (dwell > 0)
     if dwell:
         assert arcs[3].end - arcs[3].start == pytest.approx(dwell)
-    rise = re.findall(r"Arc (\w\w) about (C\d): compass (\S+) mm, (\S+) = (\S+) mm", str(step.caption))
-    assert [row[:2] for row in rise] == [("AG", "C2"), ("GF", "C3"), ("FD", "C1")]
+    rise = re.findall(r"Arc (\w\w) about (C[₁₂₃]): compass (\S+) mm, (\S+) = (\S+) mm", str(step.caption))
+    assert [row[:2] for row in rise] == [("AG", "C₂"), ("GF", "C₃"), ("FD", "C₁")]
     rho2, rho3, rho1 = (float(row[-1]) for row in rise)
     assert [float(row[2]) for row in rise] == pytest.approx(
         [arc.radius for arc in arcs[:3]], abs=max(0.006, tolerance(name))
     )
-    back = re.findall(r"Mirror (C\d) and the ends of (\w\w) .*?compass (\S+) mm", str(step.caption))
+    back = re.findall(r"Mirror (C[₁₂₃]) and the ends of (\w\w) .*?compass (\S+) mm", str(step.caption))
     assert [(arc, centre) for centre, arc, _ in back] == [row[:2] for row in rise[::-1]]
     assert [float(radius) for *_, radius in back] == [float(row[2]) for row in rise[::-1]]
     dwells = re.findall(r"([UL]\w+) dwell, .*?compass (\S+) mm, (\S+) mm of the cam", str(step.caption))
@@ -339,7 +339,8 @@ def test_the_profile_is_made_of_arcs_that_touch_and_of_their_mirror_images(name)
         assert (float(degrees), float(half)) == (math.degrees(dwell), pytest.approx(abs(turned), abs=1.0))
         assert sense == again == ("clockwise" if turned < 0 else "anticlockwise")
     for mark, text, value in zip(all_of(step, Dimension), "₂₃₁", (rho2, rho3, rho1), strict=True):
-        symbol, shown = str(mark.text).split(" = ")
+        symbol, shown = str(mark.text).split(" = R")
+        assert mark.of_radius
         assert (symbol, float(shown)) == (f"ρ{text}", pytest.approx(value, abs=0.006))
         assert abs(mark.end - mark.start) * mu == pytest.approx(value, abs=max(tolerance(name), 0.001))
     radii = [arc.radius * mu for arc in (*arcs[:3], arcs[-1])]
@@ -373,8 +374,8 @@ def test_the_roller_keeps_to_arcs_about_the_same_centres(name):
     if paths:
         are_mirrored(paths, middle_of_the_dwell(name))
     joints, (lines,) = [named(step, text).at for text in "AGFD"], all_of(step, Segments)
-    c3, c1 = named(steps(name, "three_arcs")[3], "C3").at, named(steps(name, "three_arcs")[1], "C1").at
-    assert [named(step, text).at for text in ("C3", "C1")] == [c3, c1]
+    c3, c1 = named(steps(name, "three_arcs")[3], "C₃").at, named(steps(name, "three_arcs")[1], "C₁").at
+    assert [named(step, text).at for text in ("C₃", "C₁")] == [c3, c1]
     for joint, end, centre, at in zip(joints[1:], lines.starts, lines.ends, (c3, c3, c1), strict=True):
         assert centre == at
         assert abs(abs(end - joint) - roller) < near
@@ -412,7 +413,7 @@ def test_the_radii_of_the_path_are_told_as_they_are_drawn(name):
         return
     assert numbers(step) == pytest.approx([roller * mu, roller, paths[0].radius, prime.radius], abs=0.006)
     out = [said for said in captions(step) if said.startswith("From")]
-    joints = (("A", "O"), ("G", "C3"), ("F", "C3"), ("D", "C1"))
+    joints = (("A", "O"), ("G", "C₃"), ("F", "C₃"), ("D", "C₁"))
     assert out == [f"From {p}: on the line from {c}." for p, c in joints]
     assert f"from every joint set {roller:.2f} mm off outward on its line of centres" in str(step.caption)
 
@@ -420,7 +421,7 @@ def test_the_radii_of_the_path_are_told_as_they_are_drawn(name):
 @PERFECT
 def test_the_cam_angles_of_the_joints_are_the_angles_between_the_lines_from_o(name):
     paths, step = steps(name, "arc_roller")[:2]
-    centres = [named(steps(name, "three_arcs")[k], text).at for k, text in ((2, "C2"), (3, "C3"), (3, "C3"), (1, "C1"))]
+    centres = [named(steps(name, "three_arcs")[k], text).at for k, text in ((2, "C₂"), (3, "C₃"), (3, "C₃"), (1, "C₁"))]
     joints = [named(paths, text).at for text in "AGFD"]
     on_path = [p + (p - c) / abs(p - c) * radius_of_roller(name) for p, c in zip(joints, centres, strict=True)]
     (lines,) = all_of(step, Segments)
@@ -483,7 +484,7 @@ def test_the_rays_divide_the_angle_of_each_arc_equally_and_meet_it_in_the_roller
         assert (label.towards / end).real > 0
 
 
-CENTRES = ("C2", "C3", "C1")
+CENTRES = ("C₂", "C₃", "C₁")
 
 
 def station_of(name: str, title: str) -> int:
@@ -566,11 +567,11 @@ def test_the_velocity_is_cut_off_by_the_rod_on_the_perpendicular_to_the_follower
     assert (low.real, high) == (0, pytest.approx((b.imag + BEYOND) * 1j))
     m = named(steps(name, "arc_roller")[4], "M").at
     assert low.imag == pytest.approx(min(0.0, m.imag, c.imag) - BEYOND)
-    for text, place in (("O", o), ("B", b), ("C1", c), ("K", k)):
+    for text, place in (("O", o), ("B", b), ("C₁", c), ("K", k)):
         assert named(step, text).at == place
     side = named(step, "B").towards
     assert named(step, "K").towards == side
-    assert named(step, "O").towards == named(step, "C1").towards == -side - 1j
+    assert named(step, "O").towards == named(step, "C₁").towards == -side - 1j
     ob, oc, bc, paper, scale, v = numbers(step)[-6:]
     assert (ob, oc, bc) == pytest.approx((abs(b), abs(c), abs(b - c)), abs=0.006)
     assert f"on the {'left' if c.real < 0 else 'right'} of the line" in str(step.caption)
@@ -618,7 +619,7 @@ def test_the_acceleration_follows_by_the_theorem_of_the_height(name):
 def test_the_velocities_of_all_stations_are_cut_off_by_their_rods(name):
     stations, step, mu = steps(name, "arc_roller")[2], steps(name, "arc_roller")[5], per_mm(name)
     b, k, (rods, velocities) = the(all_of(stations, Dots)[0].points), plotted(step), all_of(step, Segments)
-    centres = [named(steps(name, "three_arcs")[j], text).at for j, text in ((2, "C2"), (3, "C3"), (1, "C1"))]
+    centres = [named(steps(name, "three_arcs")[j], text).at for j, text in ((2, "C₂"), (3, "C₃"), (1, "C₁"))]
     assert np.allclose(rods.starts, b, atol=NEAR)
     assert np.allclose(rods.ends, k, atol=NEAR)
     assert np.allclose(velocities.starts, 0, atol=NEAR)
@@ -656,7 +657,7 @@ def test_the_accelerations_of_all_stations_lie_on_their_rays(name):
     times = mu * scale_of_view(step)
     copied, m, n = ([complex(p) / times for p in dots.points] for dots in all_of(step, Dots))
     assert np.allclose(copied, b, atol=1e-6)
-    centres = [named(steps(name, "three_arcs")[j], text).at for j, text in ((2, "C2"), (3, "C3"), (1, "C1"))]
+    centres = [named(steps(name, "three_arcs")[j], text).at for j, text in ((2, "C₂"), (3, "C₃"), (1, "C₁"))]
     for j, said in enumerate(captions(step)):
         arc = int(chain(name).stations.arc[j])
         c = centres[arc]
@@ -665,8 +666,8 @@ def test_the_accelerations_of_all_stations_lie_on_their_rays(name):
         assert abs(((m[j] - n[j]) * (b[j] - c).conjugate()).real) < 1e-4
         assert abs(across(b[j], m[j])) < 1e-6
         title, centre, _, ck, cn, om, way, factor, a = re.findall(
-            r"Station (\S+(?: on \w+)?): (C\d)E = (C\d)K = (\S+) mm, (?:C\dN = (\S+) mm|N in C\d), OM = (\S+) mm "
-            r"(.*), × (\S+): a = (\S+) mm/rad²",
+            r"Station (\S+(?: on \w+)?): (C[₁₂₃])E = (C[₁₂₃])K = (\S+) mm, (?:C[₁₂₃]N = (\S+) mm|N in C[₁₂₃]), "
+            r"OM = (\S+) mm (.*), × (\S+): a = (\S+) mm/rad²",
             said,
         )[0]
         assert (station_of(name, title), centre) == (j, CENTRES[arc])

@@ -55,7 +55,7 @@ def test_the_examples_give_the_printed_lift_base_circle_and_phases():
 
 def test_the_reason_of_the_other_root_names_both_orders_and_what_would_happen():
     assert three_arc_cam(**EXAMPLE)[1].why == (
-        "On the line of F, C1 and C3 the order is C1, F, C3 instead of F, C1, C3: "
+        "On the line of F, C₁ and C₃ the order is C₁, F, C₃ instead of F, C₁, C₃: "
         "the profile would turn back in a cusp at F."
     )
 

@@ -163,7 +163,7 @@ def test_short_runs_are_told_beside_their_sentence_but_for_what_it_tells_itself(
     assert "26.888° at G" in angles
     assert "Line O" not in angles
     (joints,) = re.findall(r"^\*\*2\.1\. .*", said, re.MULTILINE)
-    assert "From G: on the line from C3." in joints
+    assert "From G: on the line from C₃." in joints
     # OK of the station of the plan, and a normal acceleration of the rod: 76.42 mm squared over 54 mm.
     assert "$$v_{10} = 0.5 \\cdot 19.26 = 9.629\\ \\text{mm/rad}.$$" in said
     assert "$$CN_{10} = \\frac{76.42^2}{54.00} = 108.16\\ \\text{mm}" in said
