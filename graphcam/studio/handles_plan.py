@@ -10,14 +10,14 @@ from graphcam.constructions.views import PLAN
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import Changes, Handle, HandleAxis, nearest_station
+from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, nearest_station
 from graphcam.studio.size_ranges import SizeRange, sizes_of
 from graphcam.words import say
 
 STATION_NAME = say("Station of the velocity plan")
 
 
-def station(solution: Solution) -> Iterator[Handle]:
+def station(solution: Solution, state: HandleState) -> Iterator[Handle]:
     """The end D of the mechanism's triangle, which goes to that of the nearest station with a plan."""
     measured = solution.chain["pressure_angle"]
     shown, possible = shown_station(measured), np.flatnonzero(moving_up(measured))
