@@ -11,7 +11,6 @@ from graphcam.solving.solution import Solution
 from graphcam.studio import (
     handles_arcs as arcs,
     handles_diagrams as diagrams,
-    handles_plan as plan,
     handles_profile as profile,
     handles_region as region,
 )
@@ -140,6 +139,6 @@ VIEW_HANDLES: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Ha
     COMBINED.name: ("minimum_radius", region.of_combined),
     REGION.name: ("minimum_radius", region.of_positions),
     PROFILE.name: ("inversion", profile.of_profile),
-    PLAN.name: ("pressure_angle", plan.station),
+    PLAN.name: ("pressure_angle", region.station),
 }
 """The construction that a view needs, and its handles."""

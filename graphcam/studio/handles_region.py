@@ -1,4 +1,4 @@
-"""Handles of the region and the combined diagram: the cam centre, the arm, the tangents, a point of the curve."""
+"""Handles of the region and of what is drawn in it: cam centre, arm, tangents, a point of the curve, velocity plan."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from graphcam.constructions import arm_pressure_angle, pressure_angle
 from graphcam.constructions.axes import pieces_of
 from graphcam.constructions.minimum_radius import shown_boundaries
-from graphcam.constructions.views import COMBINED, REGION
+from graphcam.constructions.pressure_angle import moving_up, shown_station
+from graphcam.constructions.views import COMBINED, PLAN, REGION
 from graphcam.drafting.curve import farthest_on_pieces
 from graphcam.drafting.euclid import UP, circle_crossing
 from graphcam.drafting.marks import Points
@@ -19,12 +21,15 @@ from graphcam.plane_vectors import dot
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
     MAGNET_REACH,
+    Changes,
     Handle,
+    HandleAxis,
     HandleState,
     angle_at,
     angle_handle,
     axis_of,
     mark_handle,
+    nearest_station,
     over_stations,
     point_on_curve,
 )
@@ -235,3 +240,35 @@ def flat_point(solution: Solution, state: HandleState) -> Handle:
     at = complex(0.0, place.imag) if resting else place
     angle = angle_at([*stations.phi, *stations.phi], [*after, *before])
     return angle_handle(COMBINED.name, "D", say("Point of the curve"), at, state, angle)
+
+
+# --- the velocity plan ------------------------------------------------------------------------------------------------
+
+
+def station(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """The end D of the mechanism's triangle, which goes to that of the nearest station with a plan."""
+    measured = solution.chain["pressure_angle"]
+    shown, possible = shown_station(measured), np.flatnonzero(moving_up(measured))
+    places = _ends(solution, shown)
+
+    def drag(to: complex, fine: bool) -> Changes:
+        return {"station": int(possible[nearest_station(places[possible], to)])}
+
+    name = say("Station of the velocity plan")
+    room = SizeRange(float(possible[0]), float(possible[-1]), 1.0)
+    axis = HandleAxis("station", name, "", shown, room, "x", {"fine": 1.0, "coarse": 1.0})
+    yield Handle(PLAN.name, "station", name, complex(places[shown]), "xy", (axis,), drag)
+
+
+def _ends(solution: Solution, shown: int) -> Points:
+    """The ends D of all stations about the cam centre, at the scale of the plan that is shown [mm of paper]."""
+    measured = solution.chain["pressure_angle"]
+    if "arm" not in sizes_of(solution.task):
+        mu, centre = measured.readings["s0"].per_mm, complex(np.ravel(measured.first("centre"))[0])
+        ends = (np.asarray(measured.first("ends")) - centre) * mu
+        return ends / pressure_angle.plan_scale(measured, shown, complex(ends[shown])).per_mm
+    integrated, givens = measured.givens.integrated, measured.givens
+    s, v = (np.asarray(integrated.value(name)) for name in "sv")
+    arms = -givens.arm * np.exp(-1j * (float(measured.first("psi0")) + s))
+    ends = givens.distance + arms * (1 + sense(givens.rotation) * v)
+    return ends / arm_pressure_angle.plan_scale(measured, shown).per_mm

@@ -14,7 +14,7 @@
     upto: config.exercise?.upto || null, inert: false, hidden: [],
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
-    // In a tour: what the person was at before.
+    // In a mode that shows other tasks: what the person was at before.
     own: null,
   });
   const now = state.get, stats = [];
@@ -30,7 +30,7 @@
     paneOf("-beside", (main) => page.beside(main), { usual: [390, 520], letters: 40 }),
   ];
   const page = {
-    config, words, at, word, state, wire, stats, phone, panes, shown: {}, last: {}, hand: null, pinned: null, failed: null,
+    config, words, at, word, state, wire, stats, phone, panes, shown: {}, last: {}, hand: null, guess: null, pinned: null, failed: null,
     queue: queueOf(wire.ask, stats), address: addressOf(config), wide: matchMedia("(min-width: 70rem)"),
     large: panes[0].gallery, small: { strip: galleryOf(), board: galleryOf() }, stage: panes[0].stage,
     decimal: () => page.last.mechanism?.decimal || ".",
@@ -54,13 +54,14 @@
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
+  const moved = (changes, byKey = false) => Object.keys(changes)[0]?.startsWith("guess") ? page.guess.change(changes) : page.changeAny(changes, byKey);
   for (const pane of panes) {
     // A hand knows nothing of what stands above its view.
-    const drag = ({ handle, to: [x, y], ...more }) => page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
+    const drag = ({ handle, to: [x, y], ...more }) => handle === "guess" ? page.guess.drag([x, y]) : page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
     pane.hands = handsOf(pane.at, pane.stage, {
-      grab: page.grab, drag, drop: page.drop, key: (changes) => page.changeAny(changes, true), word,
+      grab: ({ id }) => id === "guess" || page.grab(), drag, drop: (cancelled, id) => id === "guess" || page.drop(cancelled), key: (changes) => moved(changes, true), word,
       written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
-      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), page.changeAny),
+      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), moved),
     });
   }
   page.heldHands = () => panes.map(({ hands }) => hands).find((hands) => hands.held());
@@ -170,7 +171,10 @@
     page.still();
     studioModes[now().mode]?.leave(studio);
     studio.panel.card(null);
-    state.set({ mode: name });
+    // What the person was at before is given back.
+    const { task, name: called, view, step, part, phi, own } = now(), mine = own || { task, name: called, view, step, part, phi };
+    state.set({ mode: name, own: name === "predict" || name === "tour" ? mine : null });
+    if (task !== mine.task) wantWhole(mine);
     showModes();
     studioModes[name]?.enter(studio);
   }
@@ -190,6 +194,10 @@
         at("card").replaceChildren(...(element ? [element] : []));
         at("panel").scrollTop = 0;
       },
+    },
+    setGuess(guess) {
+      page.guess = guess;
+      page.showHands();
     },
     // Nothing is asked, and nothing waits.
     quiet: () => !page.queue.busy(),
