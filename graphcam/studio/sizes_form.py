@@ -247,7 +247,7 @@ def _phase_fields(make: FieldMaker, phases: PhaseList, k: int, unit: str) -> Ite
     room, gone = SizeRange(step, round_up(1.6 * phase["lift"]), step), {"with": shares, "beyond": beyond}
     yield number("lift", PHASE_NAMES["lift"], "lift", phase["lift"], room, unit=unit, **gone)
     laws = [{"value": law, "name": tell(LAW_TITLES[law]), "changes": _with_law(path, phase, law)} for law in PHASE_LAWS]
-    law = make.choice(f"{path}.law", say_in("a phase", "Law"), ())
+    law = make.choice(f"{path}.law", PHASE_NAMES["law"], ())
     yield law | {"key": "phase-law", "value": phase["law"], "choices": laws}
     if phase["law"] in RATIO_LAWS:
         yield number("ratio", PHASE_NAMES["ratio"], "ratio", phase.get("ratio", 1.0), RATIO_RANGE)
