@@ -15,7 +15,7 @@
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
     // In a mode that shows other tasks: what the person was at before.
-    own: null,
+    own: null, language: config.language,
   });
   const now = state.get, stats = [];
   const wire = openWire(config, (text) => page.notice(word("starting").replace("{state}", text)));
@@ -213,10 +213,16 @@
   });
   page.wantWhole = wantWhole;
 
+  // What the address says; the page in another language stands at a place of its own, where there is one.
+  async function read() {
+    const { language = config.language, ...found } = (await page.address.read(location.hash)) || {};
+    if (language !== config.language && config.languages?.includes(language)) location.replace(`/${language}${location.hash}`);
+    return found;
+  }
+
   async function fromAddress() {
-    const found = await page.address.read(location.hash);
-    if (!found) return;
-    const { mode, ...rest } = found;
+    const { mode, ...rest } = await read();
+    if (!rest.task) return;
     if (await wantWhole(rest)) setMode(mode);
   }
 
@@ -234,7 +240,7 @@
   }
 
   if (at("builtin")) at("builtin").value = config.name;
-  const { mode, ...found } = (await page.address.read(location.hash)) || {};
+  const { mode, ...found } = await read();
   if (config.first && !found.task) {
     const asked = { views: config.first.views.map((view) => ({ ...view, pane: Number(view.plain), px_per_mm: 1 })), told: true, values: true, form: true, warnings: true, mechanism: true };
     page.take({ ok: true, views: [], ...config.first }, { request: asked, hand: null, aim: {} });
