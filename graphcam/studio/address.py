@@ -40,6 +40,7 @@ class StudioPlace:
     phi : cam angle [degrees]; None is the usual one
     swept : the path of the size over which What if is drawn
     pin : the task that is pinned beside it; None where there is none
+    language : of the page; None is English
     exercise : what is asked of the task, see :mod:`graphcam.exercises.exports.studio_link`; None is nothing
     """
 
@@ -56,6 +57,7 @@ class StudioPlace:
     swept: str | None = None
     pin: Mapping[str, Any] | None = None
     exercise: Mapping[str, Any] | None = None
+    language: str | None = None
 
 
 FIELDS = (
@@ -70,6 +72,7 @@ FIELDS = (
     ("f", "swept", "string", []),
     ("n", "pin", "task", []),
     ("x", "exercise", "object", []),
+    ("l", "language", "string", ["en"]),
 )
 """What an address says besides the task: key, name, kind of the value, and the values that the page leaves out."""
 _KINDS: dict[str, type | tuple[type, ...]] = {"string": str, "number": (int, float), "object": dict, "task": dict}

@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from hashlib import blake2b
 from itertools import chain
 
@@ -69,7 +69,7 @@ class DrawnView:
     @property
     def frame(self) -> list[float]:
         """Left, top, width and height, y downwards [mm]."""
-        box = self.kept.frame
+        box = Box(*self.kept.frame)
         return [round(each, 2) + 0.0 for each in (box.left, -box.top, box.width, box.height)]
 
     def svg(self, numbers: Numbers | None) -> dict[str, str]:
@@ -110,15 +110,22 @@ def drawn_view(
     )
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
-    former = held.labels if held else {}
+    former = held.places if held else {}
     if held is None:
         places: list[int | None] = [*places_of(drawn, [], _room(drawn))]
     else:
         places = held_places(names, drawn, former)
     finished = shading_parted(with_texts(drawn, places))
-    frame = held.frame if held else _frame(chain(*finished))
-    kept = HeldView(frame, *constructions, label_places(names, drawn, places, former))
+    frame = held.frame if held else astuple(_frame(chain(*finished)))
+    labels = label_places(names, drawn, places, former)
+    standing = {name: _rounded(at.centre.real, at.centre.imag, at.angle) for name, at in labels.items()}
+    kept = HeldView(frame, *constructions, standing)
     return DrawnView(tuple(zip(steps, finished, strict=True)), kept)
+
+
+def _rounded(x: float, y: float, angle: float) -> tuple[float, float, float]:
+    """The place of a label to a thousandth, which is not seen."""
+    return round(x, 3) + 0.0, round(y, 3) + 0.0, round(angle, 3) + 0.0
 
 
 def _expanded(step: Step, letters: Lettering, tell: Tell, *, labelled: bool) -> Drawn:

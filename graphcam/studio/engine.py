@@ -125,7 +125,21 @@ def error_data(error: GraphcamError, spoken: Language) -> Plain:
     # The page has no files: what the message says of one is left out.
     path = f"{error.path}: " if isinstance(error, TaskError) else ""
     remedy = "" if error.advice == EXAMPLE_REMEDY else named_fields(advice, spoken)
-    return {"message": named_fields(fault.removeprefix(path), spoken), "remedy": remedy}
+    fault = fault.removeprefix(path)
+    if isinstance(error, TaskError) and (phase := PHASE_NUMBER.match(error.field)):
+        fault = _with_name(fault, error.field[phase.end() :], spoken)
+    return {"message": named_fields(fault, spoken), "remedy": remedy}
+
+
+def _with_name(fault: str, key: str, spoken: Language) -> str:
+    """A message about a phase with the name of its field where it has the key."""
+    from graphcam.studio.form_fields import PHASE_NAMES
+
+    def named(found: re.Match[str]) -> str:
+        name = spoken.text(PHASE_NAMES[key])
+        return name if found.start() == 0 else name[0].lower() + name[1:]
+
+    return re.sub(rf"(?<![\w.]){key}(?!\w)", named, fault, count=1) if key in PHASE_NAMES else fault
 
 
 PHASE_NUMBER = re.compile(r"^motion\.phases\[\d+\]\.")

@@ -49,9 +49,10 @@ ALWAYS_GIVEN = "motion.tolerance", "motion.radii", "limits.pressure_angle_rise"
 PHASE_NAMES = {
     "angle": say_in("a phase", "Angle"),
     "lift": say_in("a phase", "Lift"),
+    "law": say_in("a phase", "Law"),
     "ratio": say_in("a phase", "Ratio of the accelerations"),
 }
-"""The names of the numbers of a phase, by their keys."""
+"""The names of the fields of a phase, by their keys."""
 
 
 def form_names() -> dict[str, Caption]:

@@ -100,8 +100,7 @@ def nearest_on_polyline(way: Points, place: complex) -> complex:
 
 def steps_in(chain: Chain, construction: str, view: str) -> list[str]:
     """The names of a construction's steps in a view, in order."""
-    drawn = chain[construction]
-    return [name for name, step in zip(step_ids(drawn), drawn.steps(), strict=True) if step.view.name == view]
+    return [shown.step for shown in shown_steps(chain, construction, view)]
 
 
 def shown_steps(chain: Chain, construction: str, *views: str) -> list[ShownStep]:

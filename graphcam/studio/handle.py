@@ -6,15 +6,20 @@ Places are complex, in mm of a view from its origin, y upwards; the page counts 
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from graphcam.drafting.scale import printed_unit
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
+from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
-from graphcam.studio.size_ranges import SizeRange
+from graphcam.studio.form_fields import unit_of
+from graphcam.studio.size_ranges import SizeRange, present_value, ranges
+from graphcam.tasks.declared_numbers import numbers_of
 from graphcam.words import Caption, Tell, say
 
 Changes = dict[str, Any]
@@ -24,6 +29,10 @@ MAGNET_REACH = 2.5
 COARSE_STEPS = 10
 """A coarse step is so many steps."""
 DECIMALS = 3
+Mark = Callable[[Any], Any] | Callable[[Any, Any], Any]
+"""The place of a mark for one size or two [mm of paper]."""
+MAX_STEPS, NUDGE = 30, 1e-6
+"""The number of Newton's steps at most, and how far a size is nudged to see where its mark goes."""
 TURN_RANGE = SizeRange(0.0, 360.0, 0.5)
 """The range of the cam angle [degrees]."""
 
@@ -69,7 +78,7 @@ class HandleAxis:
         return {
             "path": self.path,
             "name": tell(self.name),
-            "unit": self.unit,
+            "unit": tell(printed_unit(self.unit)),
             "value": self.value,
             **each.plain(),
             "fine": round(each.step / 5, 9),
@@ -77,6 +86,17 @@ class HandleAxis:
             "screen": self.screen,
             **(self.extra or {}),
         }
+
+
+def axis_of(solution: AnySolution, path: str, screen: str, room: SizeRange | None = None, **extra: Any) -> HandleAxis:
+    """The axis of a number of a task, as its table declares it.
+
+    room : its range, if it is another one than in the form;  extra : see :class:`HandleAxis`
+    """
+    number = numbers_of(solution.task)[path]
+    assert number.name
+    value, unit = present_value(solution, path), unit_of(solution.task, path, number)
+    return HandleAxis(path, number.name, unit, value or 0.0, room or ranges(solution)[path], screen, extra)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,36 +139,104 @@ class Handle:
         }
 
 
-def size_handle(
+def sizes_at(mark: Mark, start: Sequence[float], to: complex) -> tuple[float, ...]:
+    """The sizes that bring a mark as near to a place as they can, by Newton's steps on the mark's own place.
+
+    mark : the place of the mark for the sizes [mm of paper];  start : the sizes from which it goes there
+
+    >>> [round(size, 6) for size in sizes_at(lambda a, b: a + 1j * a * b, [1.0, 1.0], 2 + 6j)]
+    [2.0, 3.0]
+    """
+    at: Callable[..., Any] = mark
+    sizes, off = np.array(start, dtype=float), complex(to - at(*start))
+    for _ in range(MAX_STEPS):
+        nudges = NUDGE * np.eye(sizes.size)
+        slopes = [complex(at(*(sizes + each)) - at(*(sizes - each))) / (2 * NUDGE) for each in nudges]
+        step = np.linalg.lstsq(np.array([[each.real, each.imag] for each in slopes]).T, [off.real, off.imag])[0]
+        left = complex(to - at(*(sizes + step)))
+        # A whole step may lead beyond it where the mark goes along a curve.
+        while not abs(left) < abs(off) and np.abs(step).max() > NUDGE:
+            step = step / 2
+            left = complex(to - at(*(sizes + step)))
+        if np.abs(step).max() <= NUDGE:
+            break
+        sizes, off = sizes + step, left
+    return tuple(sizes.tolist())
+
+
+def mark_handle(
+    view: str,
+    key: str,
+    name: Caption,
+    mark: Mark,
+    axes: Sequence[HandleAxis],
+    *,
+    magnets: Sequence[float] = (),
+    reach: float = MAGNET_REACH,
+    rooms: Callable[[Sequence[float], float], tuple[SizeRange, Sequence[float]]] | None = None,
+    places: Sequence[complex] = (),
+    limit: bool = False,
+) -> Handle:
+    """A handle on a mark that the sizes of its axes move: the sizes are sought that bring it to the hand.
+
+    mark : the place of the mark for the sizes [mm of paper]
+    magnets : values that draw the last size;  places : that draw the mark;  reach : from so near [mm of paper]
+    rooms : range and magnets of a size, by those before it and by where the hand would have it; if not as above
+
+    >>> width = HandleAxis("b", say("Offset e"), "mm", 4.0, SizeRange(0.0, 10.0, 0.5), "x")
+    >>> mark_handle("profile", "b", say("Offset e"), lambda b: 2j - 0.5 * b, [width]).drag(-3.6 + 9j, False)
+    {'b': 7.0}
+    """
+    values = [axis.value for axis in axes]
+    place: Callable[..., Any] = mark
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The sizes, one after the other snapped, and what goes with them."""
+        drawn = [] if fine else [place for place in places if abs(place - to) <= reach]
+        known: tuple[float, ...] = ()
+        changes: Changes = {}
+        for k, axis in enumerate(axes):
+            own = partial(place, *known)
+            wanted = sizes_at(own, values[k:], drawn[0] if drawn else to)
+            room, near = rooms(known, wanted[0]) if rooms else (axis.range, magnets if k == len(axes) - 1 else ())
+            room = room._replace(step=room.step / 5) if drawn else room
+            goes = abs(_way(own, wanted)) / (2 * NUDGE)
+            value = snapped(wanted[0], room, fine=fine, magnets=near if goes else (), reach=reach / (goes or 1.0))
+            changes |= changes_with(axis.extra or {}, axis.path, value)
+            known += (value,)
+        return changes
+
+    way = _way(place, values)
+    way = way / abs(way)
+    shape = "xy" if len(axes) > 1 else "y" if abs(way.real) < NUDGE else "x" if abs(way.imag) < NUDGE else "along"
+    return Handle(view, key, name, complex(place(*values)), shape, axes, drag, way if shape == "along" else None, limit)
+
+
+def _way(mark: Callable[..., Any], sizes: Sequence[float]) -> complex:
+    """How far and in which direction a mark goes when its first size is nudged to both sides."""
+    first, *others = sizes
+    return complex(mark(first + NUDGE, *others) - mark(first - NUDGE, *others))
+
+
+def angle_handle(
     view: str,
     key: str,
     name: Caption,
     at: complex,
-    grows: complex,
-    axis: HandleAxis,
-    *,
-    magnets: Sequence[float] = (),
-    limit: bool = False,
+    state: "HandleState",
+    angle: Callable[[complex, bool], float],
+    shape: str = "xy",
 ) -> Handle:
-    """A handle of one size, which goes along a line with it.
+    """A handle of the cam angle.
 
-    grows : how far and in which direction it goes when the size grows by 1 [mm of paper]
-    magnets : values that draw the size
-
-    >>> width = HandleAxis("b", say("Offset e"), "mm", 4.0, SizeRange(0.0, 10.0, 0.5), "x")
-    >>> size_handle("profile", "b", say("Offset e"), 2j, -0.5 + 0j, width).drag(-1.6 + 9j, False)
-    {'b': 7.0}
+    angle : where the hand puts it [degrees], finely or not
     """
-    per_mm, along = 1 / abs(grows), grows / abs(grows)
+    return Handle(view, key, name, at, shape, (phi_axis(state.phi),), lambda to, fine: {"phi": angle(to, fine)})
 
-    def drag(to: complex, fine: bool) -> Changes:
-        """The size at the foot of the hand on the line, and what goes with it."""
-        value = axis.value + ((to - at) * along.conjugate()).real * per_mm
-        value = snapped(value, axis.range, fine=fine, magnets=magnets, reach=MAGNET_REACH * per_mm)
-        return changes_with(axis.extra or {}, axis.path, value)
 
-    shape = "y" if along.real == 0 else "x" if along.imag == 0 else "along"
-    return Handle(view, key, name, at, shape, (axis,), drag, along if shape == "along" else None, limit)
+def angle_at(phi: ArrayLike, places: ArrayLike) -> Callable[[complex, bool], float]:
+    """The cam angle [degrees] at the nearest of some places, which belong to angles [rad]."""
+    return lambda to, fine: in_degrees(float(np.asarray(phi)[nearest_station(places, to)]))
 
 
 @dataclass(frozen=True)
@@ -250,9 +338,5 @@ def point_on_curve(view: str, places: str, solution: Solution, state: HandleStat
     """
     stations = solution.chain.board.stations
     ends = np.asarray(solution.chain["pressure_angle"].first(places))
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"phi": in_degrees(stations.phi[nearest_station(ends, to)])}
-
     at = over_stations(stations, math.radians(state.phi), ends)
-    return Handle(view, "D", say("Point D of the curve"), at, "xy", (phi_axis(state.phi),), drag)
+    return angle_handle(view, "D", say("Point D of the curve"), at, state, angle_at(stations.phi, ends))

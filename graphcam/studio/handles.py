@@ -10,15 +10,11 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio import (
     handles_arcs as arcs,
-    handles_arm as arm,
     handles_diagrams as diagrams,
-    handles_plan as plan,
-    handles_points as points,
     handles_profile as profile,
     handles_region as region,
 )
-from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis, point_on_curve
-from graphcam.studio.size_ranges import has_angles, sizes_of
+from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis
 from graphcam.words import Tell, say
 
 MECHANISM_VIEW = "mechanism"
@@ -128,78 +124,21 @@ def _place(to: Any) -> complex:
 def _of_view(solution: AnySolution, view: str, state: HandleState) -> Iterator[Handle]:
     """The handles of a view, each made when it is come to."""
     if view == MECHANISM_VIEW:
-        yield _cam_handle(state)
+        # The page knows how far it was turned.
+        yield Handle(view, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(state.phi),), lambda to, fine: {})
     elif isinstance(solution, ArcsSolution):
         yield from arcs.of_view(solution, view, state)
     elif view in (ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name):
-        yield from _of_diagram(solution, view, state)
+        yield from diagrams.of_diagram(solution, view, state)
     elif view in VIEW_HANDLES and VIEW_HANDLES[view][0] in solution.chain.names:
         yield from VIEW_HANDLES[view][1](solution, state)
 
 
-def _of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Handle]:
-    yield from diagrams.borders(solution, view)
-    if view == DISPLACEMENT.name:
-        yield from diagrams.lift(solution)
-        yield from points.conditions(solution)
-        yield from points.rows(solution)
-    if view == ACCELERATION.name:
-        yield from diagrams.ordinate(solution)
-    if view in (ACCELERATION.name, VELOCITY.name):
-        yield from diagrams.pole(solution, view)
-    yield from diagrams.cursor(solution, view, state)
-
-
-def _of_angles(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    yield from diagrams.limits(solution)
-    yield from diagrams.cursor(solution, ANGLE.name, state)
-
-
-def _of_combined(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    """Handles of a stem with an offset, or of a flat face; an arm has another drawing."""
-    if "offset" in sizes_of(solution.task):
-        yield from region.cam_centre(solution)
-        yield from region.tangents(solution)
-        yield point_on_curve(COMBINED.name, "ends", solution, state)
-    elif not has_angles(solution.task):
-        yield from region.flat_centre(solution)
-        yield from region.flat_point(solution, state)
-
-
-def _of_positions(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    if "arm" in sizes_of(solution.task):
-        yield from arm.of_region(solution, state)
-
-
-def _of_profile(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    sizes = sizes_of(solution.task)
-    yield from profile.prime_circle(solution)
-    if "offset" in sizes:
-        yield from profile.offset_circle(solution)
-    if "arm" in sizes:
-        yield from arm.of_profile(solution)
-    if "roller_radius" in sizes:
-        yield from profile.roller_rim(solution, state)
-    yield from profile.pitch_point(solution, state)
-
-
-def _of_plan(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    yield from plan.station(solution)
-
-
 VIEW_HANDLES: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Handle]]]] = {
-    ANGLE.name: ("angle_diagram", _of_angles),
-    COMBINED.name: ("minimum_radius", _of_combined),
-    REGION.name: ("minimum_radius", _of_positions),
-    PROFILE.name: ("inversion", _of_profile),
-    PLAN.name: ("pressure_angle", _of_plan),
+    ANGLE.name: ("angle_diagram", diagrams.of_angles),
+    COMBINED.name: ("minimum_radius", region.of_combined),
+    REGION.name: ("minimum_radius", region.of_positions),
+    PROFILE.name: ("inversion", profile.of_profile),
+    PLAN.name: ("pressure_angle", region.station),
 }
 """The construction that a view needs, and its handles."""
-
-
-def _cam_handle(state: HandleState) -> Handle:
-    def drag(to: complex, fine: bool) -> Changes:
-        """The page knows how far it was turned."""
-        return {}
-
-    return Handle(MECHANISM_VIEW, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(state.phi),), drag)

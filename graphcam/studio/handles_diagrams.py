@@ -1,8 +1,11 @@
-"""Handles of the diagrams over the cam angle: borders of phases, ordinate, poles, permitted angles, cam angle."""
+"""Handles of the diagrams over the cam angle: borders of phases, ordinate, poles, points of the motion, cam angle."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import pairwise
+from pathlib import PurePath
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,17 +15,17 @@ from graphcam.drafting.euclid import UP
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
-    Changes,
+    TURN_RANGE,
     Handle,
     HandleAxis,
     HandleState,
+    angle_handle,
+    axis_of,
+    mark_handle,
     over_stations,
-    phi_axis,
-    size_handle,
-    snapped,
 )
-from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, lift_size, ranges
-from graphcam.words import Caption, say
+from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, lift_size, round_up, step_for
+from graphcam.words import say
 
 MAGNET_STEP = 5.0
 """Round phase angles [degrees] draw a border ..."""
@@ -30,63 +33,72 @@ MAGNET_REACH = 1.0
 """The distance [degrees] within which a magnet draws a border."""
 READING_NAMES = {ACCELERATION.name: "a", VELOCITY.name: "v", DISPLACEMENT.name: "s"}
 """The readings over the cam angle by the names of their views."""
+ROWS_BETWEEN = 12
+"""The rows of a table between two that can be dragged, as a part of all of them."""
+EDITED = "-edited"
+"""The file of an edited table is called so."""
+
+
+def of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Handle]:
+    """The handles of acceleration, velocity or displacement."""
+    yield from borders(solution, view)
+    if view == DISPLACEMENT.name:
+        yield from lift(solution)
+        yield from conditions(solution)
+        yield from rows(solution)
+    else:
+        yield from poles_and_ordinate(solution, view)
+    yield from cursor(solution, view, state)
+
+
+def of_angles(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """The handles of the diagram of the pressure angle."""
+    yield from limits(solution)
+    yield from cursor(solution, ANGLE.name, state)
+
+
+def _degrees(solution: Solution | ArcsSolution) -> float:
+    """The degrees of the cam to a millimetre of paper."""
+    return math.degrees(solution.chain.board.mu_phi.per_mm)
 
 
 def borders(solution: Solution, view: str) -> Iterator[Handle]:
-    """Handles where one phase ends and the next begins: what one gains the other loses."""
-    phases = solution.task.motion.phases
-    if phases is None:
-        return
-    ends = phase_ends(solution.cam.motion, solution.chain.board.mu_phi).tolist()
-    degrees = math.degrees(solution.chain.board.mu_phi.per_mm)
-    for k, (first, second) in enumerate(pairwise(phases)):
-        paths = tuple(f"motion.phases[{n}].angle" for n in (k, k + 1))
-        total, start = first.angle + second.angle, ends[k] * degrees
+    """Handles where one phase ends and the next begins: what one gains the other loses.
 
-        def drag(to: complex, fine: bool, start: float = start, total: float = total, paths: tuple[str, ...] = paths):
-            angle = border_angle(to.real * degrees, start, total, fine=fine)
-            return {paths[0]: angle, paths[1]: round(total - angle, 9)}
-
-        room = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0)
-        title = say("Angle of the {phase}", phase=phase_title(solution.cam.motion, k))
-        axis = HandleAxis(paths[0], title, "°", first.angle, room, "x", {"sum": {"path": paths[1], "total": total}})
-        name = say("End of the {phase}", phase=phase_title(solution.cam.motion, k))
-        yield Handle(view, f"border {k + 1}", name, complex(ends[k + 1]), "x", (axis,), drag)
-
-
-def border_angle(phi: float, start: float, total: float, *, fine: bool = False) -> float:
-    """The angle of a phase [degrees] that ends where the hand is: whole degrees, and rather a multiple of five.
-
-    phi : where the hand is;  start : where the phase begins;  total : its angle and that of the next one together
-
-    >>> border_angle(84.3, 0.0, 125.0), border_angle(82.7, 0.0, 125.0), border_angle(300.0, 0.0, 125.0)
-    (85.0, 83.0, 124.0)
+    A border goes in whole degrees, and is drawn to where its phase has a multiple of five.
     """
-    room = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0)
-    magnet = MAGNET_STEP * round((phi - start) / MAGNET_STEP)
-    return snapped(phi - start, room, fine=fine, magnets=[magnet], reach=MAGNET_REACH)
+    ends = phase_ends(solution.cam.motion, solution.chain.board.mu_phi).tolist()
+    degrees = _degrees(solution)
+    for k, (first, second) in enumerate(pairwise(solution.task.motion.phases or ())):
+        path, other = (f"motion.phases[{n}].angle" for n in (k, k + 1))
+        total, title = first.angle + second.angle, phase_title(solution.cam.motion, k)
+        room, name = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0), say("Angle of the {phase}", phase=title)
+        axis = HandleAxis(path, name, "°", first.angle, room, "x", {"sum": {"path": other, "total": total}})
 
+        def mark(angle: float, start: float = ends[k]) -> complex:
+            return complex(start + angle / degrees)
 
-def ordinate(solution: Solution) -> Iterator[Handle]:
-    """The greatest ordinate of the first rise, which makes the scale of the acceleration."""
-    chain, span = solution.chain, solution.chain.spans[_first_rise(solution)]
-    heights = np.abs(chain["acceleration"].first("stations")[span])
-    at = float(chain["acceleration"].first("axis")[span][int(np.argmax(heights))].real)
-    room, height = ranges(solution)["drawing.ordinate"], chain.board.ordinate
-    axis = HandleAxis("drawing.ordinate", say("Maximum ordinate of the first rise"), "mm", height, room, "y")
-    yield size_handle(ACCELERATION.name, "ordinate", axis.name, complex(at, height), UP, axis)
+        yield mark_handle(
+            view,
+            f"border {k + 1}",
+            say("End of the {phase}", phase=title),
+            mark,
+            [axis],
+            magnets=np.arange(MAGNET_STEP, total, MAGNET_STEP).tolist(),
+            reach=MAGNET_REACH / degrees,
+        )
 
 
 def lift(solution: Solution) -> Iterator[Handle]:
     """The height of the first rise, at its end; the other lifts go with it."""
     if (size := lift_size(solution.task)) is None:
         return
-    drawn, k = solution.chain["integration"], solution.chain.spans[_first_rise(solution)].stop - 1
-    at = complex(float(solution.chain["acceleration"].first("axis")[k].real), float(drawn.first("s")[k]))
-    start = drawn.first("s")[solution.chain.spans[_first_rise(solution)].start]
+    span, s = solution.chain.spans[_first_rise(solution)], solution.chain["integration"].first("s")
+    x, start = float(solution.chain["acceleration"].first("axis")[span.stop - 1].real), float(s[span.start])
+    per_size = (float(s[span.stop - 1]) - start) / size.value
     unit = "°" if solution.task.follower.column == "s_deg" else "mm"
     axis = HandleAxis(size.path, say("Lift h"), unit, size.value, size.range, "y", {"with": size.shares})
-    yield size_handle(DISPLACEMENT.name, "lift", axis.name, at, UP * (at.imag - start) / size.value, axis)
+    yield mark_handle(DISPLACEMENT.name, "lift", axis.name, lambda h: x + UP * (start + h * per_size), [axis])
 
 
 def _first_rise(solution: Solution) -> int:
@@ -95,50 +107,47 @@ def _first_rise(solution: Solution) -> int:
     return moving.index(1)
 
 
-def pole(solution: Solution, view: str) -> Iterator[Handle]:
-    """The pole of the integration that starts in a view."""
+def poles_and_ordinate(solution: Solution, view: str) -> Iterator[Handle]:
+    """The pole of the integration that starts in a view, and the greatest ordinate, which makes the scale of a."""
+    chain, drawn = solution.chain, solution.chain["acceleration"]
+    if view == ACCELERATION.name:
+        span = chain.spans[_first_rise(solution)]
+        k = int(np.argmax(np.abs(drawn.first("stations")[span])))
+        x, axis = float(drawn.first("axis")[span][k].real), axis_of(solution, "drawing.ordinate", "y")
+        yield mark_handle(view, "ordinate", axis.name, lambda height: x + UP * height, [axis])
     k = (ACCELERATION.name, VELOCITY.name).index(view)
-    poles, given = solution.chain.board.poles, solution.task.drawing.poles
-    path, room = f"drawing.poles[{k}]", ranges(solution)[f"drawing.poles[{k}]"]
-    first = {} if given is not None else {"drawing.poles": list(poles)}
-    name = say("Pole distance H₁") if k == 0 else say("Pole distance H₂")
-    axis = HandleAxis(path, name, "mm", poles[k], room, "x", {"sign": -1, "first": first})
-    yield size_handle(view, f"P{k + 1}", name, complex(-poles[k]), -1 + 0j, axis)
+    first = {} if solution.task.drawing.poles is not None else {"drawing.poles": list(chain.board.poles)}
+    axis = axis_of(solution, f"drawing.poles[{k}]", "x", sign=-1, first=first)
+    yield mark_handle(view, f"P{k + 1}", axis.name, lambda pole: complex(-pole), [axis])
 
 
 def limits(solution: Solution) -> Iterator[Handle]:
     """The permitted pressure angles, where the rise and the return begin."""
-    task, chain = solution.task.limits, solution.chain
-    mu, readings = math.degrees(chain.board.mu_phi.per_mm), chain["angle_diagram"].readings
-    per_mm = math.degrees(readings["max_rise"].per_mm)
-    motion = solution.cam.motion
-    for way, name, given, side in (
-        ("rise", say("Permitted pressure angle, rise"), task.pressure_angle_rise, 1),
-        ("return", say("Permitted pressure angle, return"), task.pressure_angle_return, -1),
-    ):
-        if given is None:
-            continue
+    angles, motion = solution.chain["angle_diagram"], solution.cam.motion
+    per_mm = math.degrees(angles.readings["max_rise"].per_mm)
+    for way, side in (("rise", 1), ("return", -1)):
         path = f"limits.pressure_angle_{way}"
-        k = [phase.kind for phase in motion.phases].index(way)
-        at = complex(math.degrees(motion.starts[k]) / mu, side * given / per_mm)
-        reached = abs(math.degrees(float(chain["angle_diagram"].value(f"max_{way}"))))
-        axis = HandleAxis(path, name, "°", given, ranges(solution)[path], "y", {"sign": side})
-        is_over = reached > given + 0.005
-        yield size_handle(ANGLE.name, f"limit {way}", name, at, side * UP / per_mm, axis, limit=is_over)
+        if getattr(solution.task.limits, path.partition(".")[2]) is None:
+            continue
+        axis = axis_of(solution, path, "y", sign=side)
+        x = math.degrees(motion.starts[[phase.kind for phase in motion.phases].index(way)]) / _degrees(solution)
+        is_over = abs(math.degrees(float(angles.value(f"max_{way}")))) > axis.value + 0.005
 
+        def mark(angle: float, x: float = x, side: int = side) -> complex:
+            return x + side * UP * angle / per_mm
 
-CURSOR_NAME: Caption = say("Cam angle φ")
+        yield mark_handle(ANGLE.name, f"limit {way}", axis.name, mark, [axis], limit=is_over)
 
 
 def cursor(solution: Solution | ArcsSolution, view: str, state: HandleState) -> Iterator[Handle]:
     """The cam angle, on the curve."""
-    degrees = math.degrees(solution.chain.board.mu_phi.per_mm)
-    height = curve_height(solution, view, math.radians(state.phi))
+    degrees = _degrees(solution)
+    at = complex(state.phi / degrees, curve_height(solution, view, math.radians(state.phi)))
+    yield angle_handle(view, "phi", say("Cam angle φ"), at, state, partial(_angle_under, degrees), "x")
 
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"phi": snapped(to.real * degrees, phi_axis(0.0).range, fine=fine)}
 
-    yield Handle(view, "phi", CURSOR_NAME, complex(state.phi / degrees, height), "x", (phi_axis(state.phi),), drag)
+def _angle_under(degrees: float, to: complex, fine: bool) -> float:
+    return TURN_RANGE.nearest_step(to.real * degrees, fine=fine)
 
 
 def curve_height(solution: Solution | ArcsSolution, view: str, phi: float) -> float:
@@ -154,3 +163,95 @@ def curve_height(solution: Solution | ArcsSolution, view: str, phi: float) -> fl
     name = READING_NAMES[view]
     before = integrated.first("a_before") if name == "a" else None
     return over_stations(stations, phi, integrated.first(name), before, rests=name != "s").real
+
+
+# --- points through which a motion goes ------------------------------------------------------------------------------
+
+
+class _Paper(NamedTuple):
+    """What a millimetre of the diagram stands for, degrees and displacement, and the displacement at its axis."""
+
+    degrees: float
+    lift: float
+    axis: float
+
+    def place(self, angle: float, lift: float) -> complex:
+        """Where a cam angle [degrees] and a displacement are."""
+        return complex(angle / self.degrees, (lift - self.axis) / self.lift)
+
+
+def _paper(solution: Solution, lifts: Sequence[float]) -> _Paper:
+    scale = solution.chain["integration"].readings["s"].per_mm / solution.task.motion.lift_unit
+    return _Paper(_degrees(solution), scale, min(lifts))
+
+
+def _lifts(values: Sequence[float]) -> SizeRange:
+    step = step_for(max(values) - min(values) or 1.0)
+    return SizeRange(min(0.0, *values), round_up(1.6 * max(*map(abs, values), step)), step)
+
+
+def conditions(solution: Solution) -> Iterator[Handle]:
+    """The points of a motion by conditions with a displacement: of those within a part the cam angle is moved too.
+
+    Where a part begins at the height at which the one before it has ended, both go together.
+    """
+    parts = solution.task.motion.parts or ()
+    unit = solution.task.follower.column.removeprefix("s_").replace("deg", "°")
+    given = [point.s for part in parts for point in part.points if point.s is not None]
+    if not given:
+        return
+    paper, lifts = _paper(solution, given), _lifts(given)
+    for k, part in enumerate(parts):
+        after = (k + 1) % len(parts)
+        for j, point in enumerate(part.points):
+            # The height from which the follower sets out is that of all others.
+            if not point.s:
+                continue
+            path, axes, extra = f"motion.parts[{k}].points[{j}]", list[HandleAxis](), {}
+            if 0 < j < len(part.points) - 1:
+                room = SizeRange(part.points[j - 1].angle + 1.0, part.points[j + 1].angle - 1.0, 1.0)
+                axes.append(HandleAxis(f"{path}.angle", say("Cam angle φ"), "°", point.angle, room, "x"))
+            elif j and parts[after].points[0].s == point.s:
+                extra = {"with": {f"motion.parts[{after}].points[0].s": 1.0}}
+            elif not j:
+                continue
+            rising = HandleAxis(f"{path}.s", say("Displacement s"), unit, point.s, lifts, "y", extra)
+
+            def mark(*sizes: float, angle: float = point.angle) -> complex:
+                return paper.place(*sizes) if len(sizes) > 1 else paper.place(angle, *sizes)
+
+            name = say("Point of the motion at {angle:g}°", angle=point.angle)
+            yield mark_handle(DISPLACEMENT.name, f"point {k}.{j}", name, mark, [*axes, rising])
+
+
+def rows(solution: Solution) -> Iterator[Handle]:
+    """Some rows of a measured displacement: those beside a dragged one follow it, less and less.
+
+    The table is called edited from then on.
+    """
+    table = solution.task.motion.table
+    if table is None or table.column not in ("s_mm", "s_deg") or solution.task.motion.symmetric:
+        return
+    unit = "°" if table.column == "s_deg" else "mm"
+    given, apart = table.rows, max(1, len(table.rows) // ROWS_BETWEEN)
+    reach = 3 * apart // 2
+    heights, file = [s for _, s in given], PurePath(table.file)
+    paper, lifts = _paper(solution, heights), _lifts(heights)
+    edited = table.file if file.stem.endswith(EDITED) else f"{file.stem}{EDITED}{file.suffix}"
+    cam_degree = 1.0 / (solution.task.motion.per_cam_degree or 1.0)
+    for k in range(apart, len(given) - apart, apart):
+        beside = range(max(k - reach, 0), min(k + reach + 1, len(given)))
+        # What rests is left as it is.
+        if len({given[j][1] for j in beside}) == 1:
+            continue
+        angle, start = given[k]
+        # A wave is added whose ends are level and without acceleration.
+        shares = {j: round(((1.0 + math.cos(math.pi * (j - k) / reach)) / 2.0) ** 2, 3) for j in beside if j != k}
+        extra = {
+            "first": {"motion.table.file": edited},
+            "with": {f"motion.table.rows[{j}][1]": share for j, share in shares.items()},
+            "beyond": {f"motion.table.rows[{j}][1]": round(given[j][1] - start * shares[j], 4) for j in shares},
+        }
+        axis = HandleAxis(f"motion.table.rows[{k}][1]", say("Displacement s"), unit, start, lifts, "y", extra)
+        name, mark = say("Row of the table at {angle:g}°", angle=angle), partial(paper.place, angle * cam_degree)
+        yield mark_handle(DISPLACEMENT.name, f"point {k}", name, mark, [axis])

@@ -1,4 +1,4 @@
-"""Handles of the cam profile: prime circle, offset circle, the rim of the roller, the pitch point."""
+"""Handles of the cam profile: prime circle, offset circle, pivot and arm, the rim of the roller, the pitch point."""
 
 import cmath
 import math
@@ -8,25 +8,38 @@ import numpy as np
 
 from graphcam.constructions.adoption import BLUNT_FACTOR
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import UP
+from graphcam.drafting.euclid import UP, circle_crossing
 from graphcam.given.follower import sense
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
     Changes,
     Handle,
-    HandleAxis,
     HandleState,
-    in_degrees,
-    nearest_station,
+    angle_at,
+    angle_handle,
+    axis_of,
+    mark_handle,
     over_stations,
-    phi_axis,
-    size_handle,
 )
 from graphcam.studio.size_ranges import SizeRange, lift_of, multiple_below, ranges, sizes_of, step_for, third_side
 from graphcam.words import say
 
-PRIME_CIRCLE_NAME, OFFSET_CIRCLE_NAME = say("Prime circle"), say("Offset circle")
-RIM_NAME, PITCH_POINT_NAME = say("Rim of the roller"), say("Point of the pitch curve")
+
+def of_profile(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """The handles of a follower's profile: those of the sizes that it has."""
+    sizes = sizes_of(solution.task)
+    yield prime_circle(solution)
+    if "offset" in sizes:
+        # Where the follower's line touches the offset circle at the start of the turn.
+        mu, axis = scale_of(solution), axis_of(solution, "follower.offset", "x")
+        yield mark_handle(PROFILE.name, "e", say("Offset circle"), lambda e: complex(e / mu), [axis])
+    if "arm" in sizes:
+        yield from pivot_and_arm(solution)
+    if "roller_radius" in sizes:
+        yield roller_rim(solution, state)
+    phi, pitch = solution.chain.board.stations.phi, solution.chain["inversion"].first("pitch")
+    at, name = pitch_at(solution, math.radians(state.phi)), say("Point of the pitch curve")
+    yield angle_handle(PROFILE.name, "phi", name, at, state, angle_at(phi, pitch))
 
 
 def scale_of(solution: Solution) -> float:
@@ -34,18 +47,15 @@ def scale_of(solution: Solution) -> float:
     return solution.chain["inversion"].readings["x"].per_mm
 
 
-def prime_circle(solution: Solution) -> Iterator[Handle]:
+def prime_circle(solution: Solution) -> Handle:
     """The lowest point of the prime circle."""
-    mu, radius, room = scale_of(solution), solution.chain.prime_radius, radii(solution)
-    adopted = solution.chain.adopted_if_any()
+    mu, room, adopted = scale_of(solution), radii(solution), solution.chain.adopted_if_any()
     least = math.nan if adopted is None else adopted.least
     fine = room.step / 5
     found = [] if math.isnan(least) else [round(math.ceil(least / fine - 1e-9) * fine, 9)]
-
-    extra = {"sign": -1, "first": kept_place(solution)}
-    axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, room, "y", extra)
-    at, too_small = -UP * radius / mu, radius < least - fine / 10
-    yield size_handle(PROFILE.name, "r0", PRIME_CIRCLE_NAME, at, -UP / mu, axis, magnets=found, limit=too_small)
+    axis = axis_of(solution, "cam.prime_radius", "y", room, sign=-1, first=kept_place(solution))
+    too_small, name = axis.value < least - fine / 10, say("Prime circle")
+    return mark_handle(PROFILE.name, "r0", name, lambda r0: -UP * r0 / mu, [axis], magnets=found, limit=too_small)
 
 
 def radii(solution: Solution) -> SizeRange:
@@ -63,11 +73,19 @@ def kept_place(solution: Solution) -> Changes:
     return {"follower.distance": solution.chain.place} if open_ else {}
 
 
-def offset_circle(solution: Solution) -> Iterator[Handle]:
-    """The handle where the follower's line touches the offset circle at the start of the turn."""
-    mu, offset, room = scale_of(solution), solution.chain.place, ranges(solution)["follower.offset"]
-    axis = HandleAxis("follower.offset", say("Offset e"), "mm", offset, room, "x")
-    yield size_handle(PROFILE.name, "e", OFFSET_CIRCLE_NAME, complex(offset / mu), complex(1 / mu), axis)
+def pivot_and_arm(solution: Solution) -> Iterator[Handle]:
+    """Pivot and end of the arm at the start of the turn: a longer arm reaches farther round the prime circle."""
+    chain, mu, arm = solution.chain, scale_of(solution), sizes_of(solution.task)["arm"]
+    radius, distance, step = chain.prime_radius, chain.place, step_for(lift_of(solution))
+    kept = {"cam.prime_radius": radius}
+    axis = axis_of(solution, "follower.distance", "x", third_side(arm, radius, step), first=kept)
+    yield mark_handle(PROFILE.name, "c", say("Pivot C"), lambda c: complex(c / mu), [axis])
+    kept = {"follower.distance": distance, "cam.prime_radius": radius}
+    axis = axis_of(solution, "follower.arm", "x", third_side(distance, radius, step), sign=-1, first=kept)
+    centre, pivot = np.asarray(0j), np.asarray(distance + 0j)
+    yield mark_handle(
+        PROFILE.name, "l", axis.name, lambda arm: circle_crossing(centre, radius, pivot, arm, flat=True) / mu, [axis]
+    )
 
 
 def pitch_at(solution: Solution, phi: float) -> complex:
@@ -79,7 +97,7 @@ def pitch_at(solution: Solution, phi: float) -> complex:
     return over_stations(stations, phi, in_frame) * cmath.exp(-1j * sigma * phi)
 
 
-def roller_rim(solution: Solution, state: HandleState) -> Iterator[Handle]:
+def roller_rim(solution: Solution, state: HandleState) -> Handle:
     """The outermost point of the roller where it stands at the cam angle."""
     mu, radius, step = scale_of(solution), solution.chain.roller_radius, step_for(lift_of(solution))
     room = ranges(solution)["follower.roller_radius"]
@@ -89,18 +107,8 @@ def roller_rim(solution: Solution, state: HandleState) -> Iterator[Handle]:
     if solution.task.prime_radius is None and math.isfinite(rho):  # a larger roller would find a larger prime radius
         room = room._replace(most=max(room.least, min(room.most, multiple_below(rho / BLUNT_FACTOR, step))))
     sharpest = [round(math.floor(5 * rho / step) * step / 5, 9)] if math.isfinite(rho) else []
-    axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "y")
-    at, undercut = centre + out * radius / mu, radius >= rho
-    yield size_handle(PROFILE.name, "r", RIM_NAME, at, out / mu, axis, magnets=sharpest, limit=undercut)
-
-
-def pitch_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    """The point of the pitch curve at the cam angle."""
-    stations = solution.chain.board.stations
-    pitch = solution.chain["inversion"].first("pitch")
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"phi": in_degrees(stations.phi[nearest_station(pitch, to)])}
-
-    at = pitch_at(solution, math.radians(state.phi))
-    yield Handle(PROFILE.name, "phi", PITCH_POINT_NAME, at, "xy", (phi_axis(state.phi),), drag)
+    axis, name = axis_of(solution, "follower.roller_radius", "y", room), say("Rim of the roller")
+    undercut = radius >= rho
+    return mark_handle(
+        PROFILE.name, "r", name, lambda r: centre + out * r / mu, [axis], magnets=sharpest, limit=undercut
+    )

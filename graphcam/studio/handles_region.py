@@ -1,20 +1,23 @@
-"""Handles of the combined diagram: the cam centre in the region, the tangents, and a point of the curve."""
+"""Handles of the region and of what is drawn in it: cam centre, arm, tangents, a point of the curve, velocity plan."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
+from graphcam.constructions import arm_pressure_angle, pressure_angle
 from graphcam.constructions.axes import pieces_of
 from graphcam.constructions.minimum_radius import shown_boundaries
-from graphcam.constructions.region import Boundary
-from graphcam.constructions.views import COMBINED
+from graphcam.constructions.pressure_angle import moving_up, shown_station
+from graphcam.constructions.views import COMBINED, PLAN, REGION
 from graphcam.drafting.curve import farthest_on_pieces
-from graphcam.drafting.euclid import UP
+from graphcam.drafting.euclid import UP, circle_crossing
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
-from graphcam.given.laws import Floats
+from graphcam.plane_vectors import dot
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
     MAGNET_REACH,
@@ -22,13 +25,25 @@ from graphcam.studio.handle import (
     Handle,
     HandleAxis,
     HandleState,
-    in_degrees,
+    angle_at,
+    angle_handle,
+    axis_of,
+    mark_handle,
     nearest_station,
     over_stations,
-    phi_axis,
-    size_handle,
+    point_on_curve,
 )
-from graphcam.studio.size_ranges import SizeRange, lift_of, multiple_above, ranges, round_up, step_for
+from graphcam.studio.size_ranges import (
+    SizeRange,
+    has_angles,
+    lift_of,
+    multiple_above,
+    ranges,
+    round_up,
+    sizes_of,
+    step_for,
+    third_side,
+)
 from graphcam.tasks.task import ANGLE_RANGE
 from graphcam.words import say
 
@@ -39,93 +54,134 @@ CENTRE_NAME = say("Cam centre A")
 
 @dataclass(frozen=True, eq=False)
 class CentreOfRegion:
-    """The places where the hand may put the cam centre of a translating follower, and which sizes it has there.
+    """The places where the hand may put the cam centre: two sizes, of which the second is the prime radius.
 
-    lines : that bound the region;  mu : mm of the machine to a millimetre of paper
-    step : to which sizes are snapped;  most : the greatest prime radius;  aside : the greatest offset
-    roller : the given roller radius, which the prime radius must exceed
-    places : of the region that textbooks take [mm of paper]
+    mark : the cam centre for both sizes [mm of paper], also of an array of radii
+    touches, inwards : the lines that bound the region, (k,) each [mm of paper]
+    firsts : the range of the first size;  radii : that of the prime radius at a value of the first size
+    mu : mm to a millimetre of paper
     """
 
-    lines: tuple[Boundary, ...]
+    mark: Callable[[float, Any], Any]
+    touches: Points
+    inwards: Points
+    firsts: SizeRange
+    radii: Callable[[float], SizeRange]
     mu: float
-    step: float
-    most: float
-    aside: float
-    roller: float
-    places: tuple[complex, ...]
 
-    def edge(self, offset: float) -> float:
-        """The least prime radius at an offset, as the edge of the region has it there; both in mm."""
-        x, lowest = -offset / self.mu, 0.0
-        for line in self.lines:
-            touch, inward = complex(line.touch), complex(line.inward)
-            if inward.imag:
-                lowest = min(lowest, touch.imag - (x - touch.real) * inward.real / inward.imag)
-        return self.mu * abs(complex(x, lowest))
-
-    def inside(self, offset: float, radius: float) -> bool:
+    def inside(self, first: float, radii: Any) -> Any:
         """Whether all limits are kept there."""
-        return radius >= self.edge(offset) - EDGE_TOLERANCE * self.mu
+        centre = np.asarray(self.mark(first, radii))[..., None]
+        return (dot(self.inwards, centre - self.touches) >= -EDGE_TOLERANCE).all(axis=-1)
 
-    def sizes(self, to: complex, *, fine: bool) -> tuple[float, float]:
-        """The offset and the prime radius of a cam centre that is put to a place [mm of paper]."""
-        aside = SizeRange(-self.aside, self.aside, self.step)
-        place = None if fine else next((each for each in self.places if abs(each - to) <= MAGNET_REACH), None)
-        if place is not None and abs(place.real) * self.mu <= self.aside:
-            offset = aside._replace(step=self.step / 5).nearest_step(-place.real * self.mu)
-            return offset, self._radius(offset, self.edge(offset), rounded_up=True, fine=True)
-        offset = aside.nearest_step(-to.real * self.mu, fine=fine)
-        radius = self.mu * abs(complex(offset / self.mu, min(to.imag, 0.0)))
-        edge = self.edge(offset)
-        if not fine and abs(radius - edge) <= MAGNET_REACH * self.mu:
-            return offset, self._radius(offset, edge, rounded_up=True, fine=True)
-        return offset, self._radius(offset, radius, fine=fine)
-
-    def _radius(self, offset: float, wanted: float, *, fine: bool, rounded_up: bool = False) -> float:
-        """A prime radius on a step, larger than the offset and the roller."""
-        step = self.step / 5 if fine else self.step
-        steps = math.ceil(wanted / step - 1e-9) if rounded_up else round(wanted / step)
-        return round(min(max(steps * step, multiple_above(max(abs(offset), self.roller), step)), self.most), 9)
+    def rooms(self, known: Sequence[float], wanted: float) -> tuple[SizeRange, Sequence[float]]:
+        """The range of the first size; if that is known that of the radius, and those near a wanted one just inside."""
+        if not known:
+            return self.firsts, ()
+        first, room = known[0], self.radii(known[0])
+        step = room.step / 5
+        count = math.ceil(MAGNET_REACH * self.mu / step) + 1
+        tried = (step * (round(wanted / step) + np.arange(-count, count + 1))).round(9)
+        tried = tried[(room.least <= tried) & (tried <= room.most)]
+        inside = self.inside(first, tried)
+        # Where one is inside and its neighbour is not, the one inside.
+        return room, [float(tried[k + (not inside[k])]) for k in np.flatnonzero(inside[1:] != inside[:-1])]
 
 
-def centre_of_region(solution: Solution) -> CentreOfRegion:
-    """What the region of a solution lets the hand do."""
-    region, sizes = solution.chain["minimum_radius"], ranges(solution)
-    follower, step = solution.task.follower, step_for(lift_of(solution))
-    most, radius, offset = sizes["cam.prime_radius"].most, solution.chain.prime_radius, solution.chain.place
-    aside = min(max(round_up(lift_of(solution)), abs(offset)), max(most, radius) - step)
-    named = (region.acts.get(name) for name in ("nearest", "foot on rise", "central"))
-    places = (complex(np.ravel(each.first.shown)[0]) for each in named if each is not None)
-    return CentreOfRegion(
-        lines=tuple(shown_boundaries(region)),
-        mu=region.readings["prime_radius"].per_mm,
-        step=step,
-        most=max(most, radius),
-        aside=aside,
-        roller=follower.roller_radius or 0.0,
-        places=tuple(place for place in places if np.isfinite(place)),
-    )
+def of_combined(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """Handles of a stem with an offset, or of a flat face; an arm has another drawing."""
+    if "offset" in sizes_of(solution.task):
+        yield cam_centre(solution)
+        yield from tangents(solution)
+        yield point_on_curve(COMBINED.name, "ends", solution, state)
+    elif not has_angles(solution.task):
+        yield flat_centre(solution)
+        yield flat_point(solution, state)
 
 
-def cam_centre(solution: Solution) -> Iterator[Handle]:
+def cam_centre(solution: Solution) -> Handle:
     """The cam centre of a translating follower: its offset and its prime radius in one."""
-    free, chain = centre_of_region(solution), solution.chain
-    offset, radius = chain.place, chain.prime_radius
-
-    def drag(to: complex, fine: bool) -> Changes:
-        e, r0 = free.sizes(to, fine=fine)
-        return {"follower.offset": e, "cam.prime_radius": r0}
-
-    aside = SizeRange(-free.aside, free.aside, free.step)
-    radii = SizeRange(multiple_above(max(abs(offset), free.roller), free.step), free.most, free.step)
-    axes = (
-        HandleAxis("follower.offset", say("Offset e"), "mm", offset, aside, "x", {"sign": -1}),
-        HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, radii, "y", {"sign": -1}),
+    region, chain, room = solution.chain["minimum_radius"], solution.chain, ranges(solution)["cam.prime_radius"]
+    offset, radius, mu = chain.place, chain.prime_radius, region.readings["prime_radius"].per_mm
+    step, roller = step_for(lift_of(solution)), solution.task.follower.roller_radius or 0.0
+    most = max(room.most, radius)
+    widest = min(max(round_up(lift_of(solution)), abs(offset)), max(room.most, radius) - step)
+    lines = shown_boundaries(region)
+    touches, inwards = (
+        np.array([complex(each) for each in of]) for of in zip(*((b.touch, b.inward) for b in lines), strict=True)
     )
-    at = complex(chain["pressure_angle"].first("centre"))
+
+    def mark(e: float, r0: Any) -> Any:
+        """The centre below the zero of s, on the line of the offset."""
+        return (-e - 1j * np.sqrt(np.maximum(np.square(r0) - e**2, 0.0))) / mu
+
+    def radii(e: float) -> SizeRange:
+        """The prime radii larger than offset and roller."""
+        return SizeRange(multiple_above(max(abs(e), roller), step / 5), most, step)
+
+    named = (region.acts.get(name) for name in ("nearest", "foot on rise", "central"))
+    places = [complex(np.ravel(each.first.shown)[0]) for each in named if each is not None]
+    places = [place for place in places if np.isfinite(place) and abs(place.real) * mu <= widest]
+    aside = SizeRange(-widest, widest, step)
+    free = CentreOfRegion(mark, touches, inwards, aside, radii, mu)
+    axes = [
+        axis_of(solution, "follower.offset", "x", aside, sign=-1),
+        axis_of(solution, "cam.prime_radius", "y", radii(offset), sign=-1),
+    ]
     outside = not free.inside(offset, radius)
-    yield Handle(COMBINED.name, "A", CENTRE_NAME, at, "xy", axes, drag, limit=outside)
+    return mark_handle(COMBINED.name, "A", CENTRE_NAME, mark, axes, rooms=free.rooms, places=places, limit=outside)
+
+
+# --- an arm ----------------------------------------------------------------------------------------------------------
+
+
+def of_positions(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """Cam centre, end of the arm at rest, and a point of the curve of the tips."""
+    if "arm" in sizes_of(solution.task):
+        yield arm_centre(solution)
+        yield arm_at_rest(solution)
+        yield point_on_curve(REGION.name, "tips", solution, state)
+
+
+def arm_centre(solution: Solution) -> Handle:
+    """The cam centre about the pivot of an arm: its centre distance and its prime radius in one."""
+    region, follower, chain = solution.chain["minimum_radius"], sizes_of(solution.task), solution.chain
+    names = [name.removeprefix("touch of ") for name in region.points if name.startswith("touch of ")]
+    touches, inwards = (
+        np.concatenate([np.ravel(region.first(f"{what} of {name}")) for name in names]) for what in ("touch", "inward")
+    )
+    arm, step, mu = follower["arm"], step_for(lift_of(solution)), region.readings["prime_radius"].per_mm
+    pivot, end = np.asarray(0j), np.asarray(-arm + 0j)
+
+    def radii(distance: float) -> SizeRange:
+        """The prime radii that close a triangle, larger than the roller."""
+        sides = third_side(arm, distance, step)
+        return sides._replace(least=max(sides.least, multiple_above(follower["roller_radius"] or 0.0, step)))
+
+    def mark(c: float, r0: Any) -> Any:
+        """The centre below the line of the arm at rest, whose pivot is the origin."""
+        return circle_crossing(pivot, c, end, r0, flat=True) / mu
+
+    free = CentreOfRegion(mark, touches, inwards, SizeRange(5 * step, round_up(2.5 * arm), step), radii, mu)
+    axes = [
+        axis_of(solution, "follower.distance", "x", third_side(arm, chain.prime_radius, step), sign=-1),
+        axis_of(solution, "cam.prime_radius", "y", radii(chain.place), sign=-1),
+    ]
+    outside = not free.inside(chain.place, chain.prime_radius)
+    return mark_handle(REGION.name, "A", CENTRE_NAME, mark, axes, rooms=free.rooms, limit=outside)
+
+
+def arm_at_rest(solution: Solution) -> Handle:
+    """The end of the arm at rest, which is as far from the pivot as the arm is long."""
+    chain, mu = solution.chain, solution.chain["pressure_angle"].givens.mu_l.per_mm
+    # What must stay as it is while the arm's length changes, unless all is found for it.
+    kept, room = {"follower.distance": chain.place, "cam.prime_radius": chain.prime_radius}, None
+    if solution.task.prime_radius is None and sizes_of(solution.task)["distance"] is None:
+        kept = {}
+    else:
+        room = third_side(chain.place, chain.prime_radius, step_for(lift_of(solution)))
+    axis = axis_of(solution, "follower.arm", "x", room, sign=-1, first=kept)
+    return mark_handle(REGION.name, "B0", axis.name, lambda arm: complex(-arm / mu), [axis])
 
 
 # --- the tangents ----------------------------------------------------------------------------------------------------
@@ -139,19 +195,11 @@ def tangents(solution: Solution) -> Iterator[Handle]:
         ("rise", say("Tangent of the rise"), limits.pressure_angle_rise),
         ("return", say("Tangent of the return"), limits.pressure_angle_return),
     ):
-        if permitted is None:
-            continue
-        path = f"limits.pressure_angle_{name}"
-
-        def drag(to: complex, fine: bool, name: str = name, path: str = path) -> Changes:
-            """The angle at which the tangent comes nearest to the hand."""
-            angles = np.arange(ANGLE_RANGE.least, ANGLE_RANGE.most + 0.1, 0.2 if fine else 1.0).round(6)
-            met = tangents_meet(solution, name, np.radians(angles), level)
-            return {path: float(angles[np.argmin(np.abs(met - to.real))])}
-
-        at = float(tangents_meet(solution, name, np.radians([permitted]), level)[0])
-        axis = HandleAxis(path, title, "°", permitted, SizeRange(*ANGLE_RANGE), "x", {"sign": _side(solution, name)})
-        yield Handle(COMBINED.name, f"tangent {name}", title, complex(at, level), "x", (axis,), drag)
+        if permitted is not None:
+            sign, path = _side(solution, name), f"limits.pressure_angle_{name}"
+            axis = axis_of(solution, path, "x", SizeRange(*ANGLE_RANGE), sign=sign)
+            mark = partial(tangent_at, solution, name, level)
+            yield mark_handle(COMBINED.name, f"tangent {name}", title, mark, [axis])
 
 
 def _side(solution: Solution, name: str) -> int:
@@ -159,41 +207,68 @@ def _side(solution: Solution, name: str) -> int:
     return sense(solution.task.rotation) * (1 if name == "rise" else -1)
 
 
-def tangents_meet(solution: Solution, name: str, angles: Floats, level: float) -> Floats:
-    """Where tangents at permitted angles [rad] to the curve of rise or return meet a level; (k,) in mm."""
+def tangent_at(solution: Solution, name: str, level: float, angle: float) -> complex:
+    """Where the tangent at a permitted angle [degrees] to the curve of rise or return meets a level [mm of paper]."""
     motion, stations = solution.cam.motion, solution.chain.board.stations
     side, pieces = _side(solution, name), pieces_of(motion, stations, 1 if name == "rise" else -1)
     ends = np.asarray(solution.chain["pressure_angle"].first("ends"))
-    along: Points = -side * UP * np.exp(1j * side * angles)
-    touch = farthest_on_pieces(np.broadcast_to(ends, (angles.size, ends.size)), pieces, along * -UP)
-    return touch.real + (level - touch.imag) * along.real / along.imag
+    along: Points = np.array([-side * UP * np.exp(1j * side * math.radians(angle))])
+    touch: Points = farthest_on_pieces(ends[None], pieces, along * -UP)
+    return complex((touch.real + (level - touch.imag) * along.real / along.imag)[0], level)
 
 
 # --- a flat face -----------------------------------------------------------------------------------------------------
 
 
-def flat_centre(solution: Solution) -> Iterator[Handle]:
+def flat_centre(solution: Solution) -> Handle:
     """The cam centre under a flat face: the prime radius below the axis of a."""
-    region, chain, sizes = solution.chain["minimum_radius"], solution.chain, ranges(solution)["cam.prime_radius"]
-    mu = region.readings["prime_radius"].per_mm
-    least = float(region.value("prime_radius"))
-    found = math.ceil(5 * least / sizes.step - 1e-9) * sizes.step / 5
-    axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", chain.prime_radius, sizes, "y", {"sign": -1})
-    at, outside = -UP * chain.prime_radius / mu, chain.prime_radius < least - EDGE_TOLERANCE * mu
-    yield size_handle(COMBINED.name, "A", CENTRE_NAME, at, -UP / mu, axis, magnets=[round(found, 9)], limit=outside)
+    region, axis = solution.chain["minimum_radius"], axis_of(solution, "cam.prime_radius", "y", sign=-1)
+    mu, least, step = region.readings["prime_radius"].per_mm, float(region.value("prime_radius")), axis.range.step
+    found, outside = math.ceil(5 * least / step - 1e-9) * step / 5, axis.value < least - EDGE_TOLERANCE * mu
+    return mark_handle(
+        COMBINED.name, "A", CENTRE_NAME, lambda r0: -UP * r0 / mu, [axis], magnets=[round(found, 9)], limit=outside
+    )
 
 
-def flat_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
+def flat_point(solution: Solution, state: HandleState) -> Handle:
     """The point of the curve of s over a at the cam angle."""
     integrated, stations = solution.chain["integration"], solution.chain.board.stations
     times = integrated.readings["a"].per_mm / integrated.readings["s"].per_mm
     after, before = (integrated.first("s") * UP + times * integrated.first(name) for name in ("a", "a_before"))
-
-    def drag(to: complex, fine: bool) -> Changes:
-        count = stations.phi.size
-        return {"phi": in_degrees(stations.phi[nearest_station([*after, *before], to) % count])}
-
     place = over_stations(stations, math.radians(state.phi), after, before)
     resting = over_stations(stations, math.radians(state.phi), integrated.first("a"), rests=True) == 0
     at = complex(0.0, place.imag) if resting else place
-    yield Handle(COMBINED.name, "D", say("Point of the curve"), at, "xy", (phi_axis(state.phi),), drag)
+    angle = angle_at([*stations.phi, *stations.phi], [*after, *before])
+    return angle_handle(COMBINED.name, "D", say("Point of the curve"), at, state, angle)
+
+
+# --- the velocity plan ------------------------------------------------------------------------------------------------
+
+
+def station(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """The end D of the mechanism's triangle, which goes to that of the nearest station with a plan."""
+    measured = solution.chain["pressure_angle"]
+    shown, possible = shown_station(measured), np.flatnonzero(moving_up(measured))
+    places = _ends(solution, shown)
+
+    def drag(to: complex, fine: bool) -> Changes:
+        return {"station": int(possible[nearest_station(places[possible], to)])}
+
+    name = say("Station of the velocity plan")
+    room = SizeRange(float(possible[0]), float(possible[-1]), 1.0)
+    axis = HandleAxis("station", name, "", shown, room, "x", {"fine": 1.0, "coarse": 1.0})
+    yield Handle(PLAN.name, "station", name, complex(places[shown]), "xy", (axis,), drag)
+
+
+def _ends(solution: Solution, shown: int) -> Points:
+    """The ends D of all stations about the cam centre, at the scale of the plan that is shown [mm of paper]."""
+    measured = solution.chain["pressure_angle"]
+    if "arm" not in sizes_of(solution.task):
+        mu, centre = measured.readings["s0"].per_mm, complex(np.ravel(measured.first("centre"))[0])
+        ends = (np.asarray(measured.first("ends")) - centre) * mu
+        return ends / pressure_angle.plan_scale(measured, shown, complex(ends[shown])).per_mm
+    integrated, givens = measured.givens.integrated, measured.givens
+    s, v = (np.asarray(integrated.value(name)) for name in "sv")
+    arms = -givens.arm * np.exp(-1j * (float(measured.first("psi0")) + s))
+    ends = givens.distance + arms * (1 + sense(givens.rotation) * v)
+    return ends / arm_pressure_angle.plan_scale(measured, shown).per_mm

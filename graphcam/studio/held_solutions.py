@@ -7,9 +7,8 @@ engine keeps nothing itself, and any engine can go on where another one was.
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache, lru_cache
 from typing import Any
 
@@ -20,14 +19,15 @@ from graphcam.constructions.views import REGION
 from graphcam.drafting.ink import Construction
 from graphcam.errors import DesignError
 from graphcam.sheets.labels import LabelPlace
-from graphcam.sheets.model import Box
 from graphcam.solving.arcs_solution import AnySolution, solve_arcs
 from graphcam.solving.diagram_sizes import DrawnHeights
 from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import board_of
 from graphcam.studio.size_ranges import sizes_of
+from graphcam.studio.view_steps import ViewName
 from graphcam.studio.views_request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.dataclass_reader import read_dataclass
 from graphcam.tasks.task import Task
 from graphcam.words import say
 
@@ -37,8 +37,6 @@ MAX_HEIGHT = 2000.0
 
 CENTRE_SHARE = 0.8
 """The share of it that the cam centre may lie below the curve; the rest is for the curve and the labels."""
-PLACE_DECIMALS = 3
-"""Decimals of places [mm] and of angles [rad]: a thousandth is not seen."""
 Plain = dict[str, Any]
 
 
@@ -46,24 +44,24 @@ Plain = dict[str, Any]
 class HeldView:
     """What a view keeps.
 
-    frame : the box that is shown, y upwards [mm]
-    drawn_by, settled_by : the constructions that draw in it, and those that settle its scale
-    labels : where its labels stand, by their names
+    frame : left, bottom, right and top of the box that is shown, y upwards [mm]
+    drawn, settled : the constructions that draw in it, and those that settle its scale
+    labels : where its labels stand, by their names: x and y [mm], and the angle [rad]
     """
 
-    frame: Box
-    drawn_by: tuple[str, ...]
-    settled_by: tuple[str, ...]
-    labels: Mapping[str, LabelPlace]
+    frame: tuple[float, float, float, float]
+    drawn: tuple[str, ...]
+    settled: tuple[str, ...]
+    labels: Mapping[str, tuple[float, float, float]]
 
-    def plain(self) -> Plain:
-        """The held view as plain data."""
-        labels = {
-            name: [*_rounded_place(at.centre), round(at.angle, PLACE_DECIMALS)] for name, at in self.labels.items()
-        }
-        corners = [self.frame.left, self.frame.bottom, self.frame.right, self.frame.top]
-        constructions = {"drawn": list(self.drawn_by), "settled": list(self.settled_by)}
-        return {"frame": corners, **constructions, "labels": labels}
+    def __post_init__(self) -> None:
+        """Check that all of it lies on paper."""
+        _check_usable(abs(each) for place in (self.frame, *self.labels.values()) for each in place)
+
+    @property
+    def places(self) -> dict[str, LabelPlace]:
+        """The places of the labels by their names."""
+        return {name: LabelPlace(complex(x, y), angle) for name, (x, y, angle) in self.labels.items()}
 
 
 @dataclass(frozen=True)
@@ -80,10 +78,9 @@ class HeldDiagrams:
     poles: tuple[float, float]
     asked: tuple[float | None, tuple[float, float] | None]
 
-    def plain(self) -> Plain:
-        """The held diagrams as plain data."""
-        asked = [self.asked[0], self.asked[1] and list(self.asked[1])]
-        return {"ordinate": self.ordinate, "peak": self.peak, "poles": list(self.poles), "asked": asked}
+    def __post_init__(self) -> None:
+        """Check that they can be drawn by."""
+        _check_usable((self.ordinate, self.peak, *self.poles, *(self.asked[1] or ())), 1 / MAX_DISTANCE)
 
 
 @dataclass(frozen=True)
@@ -100,17 +97,15 @@ class DragHold:
     diagrams: HeldDiagrams | None = None
     station: int | None = None
     views: Mapping[str, HeldView] = field(default_factory=dict[str, HeldView])
-    names: tuple[Plain, ...] = ()
+    names: tuple[ViewName, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check that its scales can be drawn by."""
+        _check_usable(self.scales.values(), 1 / MAX_DISTANCE)
 
     def plain(self) -> Plain:
         """The hold as plain data."""
-        return {
-            "scales": dict(self.scales),
-            "diagrams": self.diagrams and self.diagrams.plain(),
-            "station": self.station,
-            "views": {key: view.plain() for key, view in self.views.items()},
-            "names": list(self.names),
-        }
+        return json.loads(json.dumps(asdict(self)))
 
     def needs(self, keys: Iterable[str]) -> tuple[set[str], set[str]] | None:
         """The constructions that draw in the views of these keys, and others that settle their scales.
@@ -120,8 +115,18 @@ class DragHold:
         views = [self.views.get(key) for key in keys]
         if any(view is None for view in views):
             return None
-        drawing = {name for view in views if view for name in view.drawn_by}
-        return drawing, {name for view in views if view for name in view.settled_by} - drawing
+        drawing = {name for view in views if view for name in view.drawn}
+        return drawing, {name for view in views if view for name in view.settled} - drawing
+
+
+MAX_DISTANCE = 1e9
+"""No place on paper is farther away [mm], and no scale coarser."""
+
+
+def _check_usable(numbers: Iterable[float], least: float = -1.0) -> None:
+    for each in numbers:
+        if not least < each < MAX_DISTANCE:
+            raise DesignError("hold", each, say("what an earlier answer left, or left out"))
 
 
 def hold_of(data: Mapping[str, Any]) -> DragHold:
@@ -134,75 +139,14 @@ def hold_of(data: Mapping[str, Any]) -> DragHold:
     >>> hold_of(DragHold(scales={"profile": 0.5}).plain()).scales
     {'profile': 0.5}
     """
-    try:
-        return _hold(data)
-    except (TypeError, ValueError, KeyError, AttributeError):
-        raise DesignError("hold", say("unknown data"), say("what an earlier answer left, or left out")) from None
-
-
-def _hold(data: Mapping[str, Any]) -> DragHold:
-    diagrams, names = data["diagrams"], tuple(_name(each) for each in data["names"])
-    scales = {str(name): _positive_number(scale) for name, scale in data["scales"].items()}
-    views = {str(key): _view(view) for key, view in data["views"].items()}
-    station = None if data["station"] is None else int(data["station"])
-    return DragHold(scales, None if diagrams is None else _diagrams(diagrams), station, views, names)
-
-
-def _view(data: Mapping[str, Any]) -> HeldView:
-    left, bottom, right, top = map(_finite, data["frame"])
-    labels = {
-        str(name): LabelPlace(complex(_finite(x), _finite(y)), _finite(angle))
-        for name, (x, y, angle) in data["labels"].items()
-    }
-    frame = Box(left, bottom, right, top)
-    return HeldView(frame, tuple(map(str, data["drawn"])), tuple(map(str, data["settled"])), labels)
-
-
-def _diagrams(data: Mapping[str, Any]) -> HeldDiagrams:
-    first, second = map(_positive_number, data["poles"])
-    ordinate, poles = data["asked"]
-    asked = None if ordinate is None else _positive_number(ordinate), None if poles is None else _pair(poles)
-    return HeldDiagrams(_positive_number(data["ordinate"]), _positive_number(data["peak"]), (first, second), asked)
-
-
-def _pair(values: Iterable[Any]) -> tuple[float, float]:
-    first, second = map(_positive_number, values)
-    return first, second
-
-
-def _name(data: Mapping[str, Any]) -> Plain:
-    return {
-        **{key: str(data[key]) for key in ("name", "title", "short")},
-        "steps": int(data["steps"]),
-    }
-
-
-def _finite(value: Any) -> float:
-    """A number, or an error that :func:`hold_of` tells."""
-    number = float(value)
-    if not abs(number) < MAX_DISTANCE:
-        raise ValueError(value)
-    return number
-
-
-MAX_DISTANCE = 1e9
-"""No place on paper is farther away [mm], and no scale coarser."""
-
-
-def _positive_number(value: Any) -> float:
-    number = _finite(value)
-    if not number > 1 / MAX_DISTANCE:
-        raise ValueError(value)
-    return number
-
-
-def _rounded_place(at: complex) -> tuple[float, float]:
-    return round(at.real, PLACE_DECIMALS) + 0.0, round(at.imag, PLACE_DECIMALS) + 0.0
+    if isinstance(found := read_dataclass(DragHold, data), list):
+        raise DesignError("hold", say("unknown data"), say("what an earlier answer left, or left out"))
+    return found
 
 
 def is_usable_scale(value: float) -> bool:
     """Whether a scale can be kept."""
-    return math.isfinite(value) and 1 / MAX_DISTANCE < value < MAX_DISTANCE
+    return 1 / MAX_DISTANCE < value < MAX_DISTANCE
 
 
 def held_solution(
@@ -217,15 +161,15 @@ def held_solution(
     ------
     GraphcamError : it is no task, or there is no such cam
     """
-    kept = {} if hold is None else replace(hold, views={}, names=()).plain()
+    kept = replace(hold or DragHold(), views={}, names=()).plain()
     return _cached_solution(json.dumps(task), spoken, json.dumps(kept), station)
 
 
 # Views of one task are asked for one after another, and a drag is told from where the hand took hold.
 @lru_cache(maxsize=8)
 def _cached_solution(task: str, spoken: str, kept: str, station: int | None) -> AnySolution:
-    data, held = json.loads(task), json.loads(kept)
-    given, pencil, hold = task_in(data, spoken), pencil_in(data), hold_of(held) if held else DragHold()
+    data, hold = json.loads(task), hold_of(json.loads(kept))
+    given, pencil = task_in(data, spoken), pencil_in(data)
     if isinstance(given, ArcsTask):
         return solve_arcs(given, pencil, hold.scales)
     # Its page is dragged by the scale of the cam angle, as worksheets are read by it.

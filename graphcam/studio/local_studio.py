@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from graphcam.errors import DesignError, GraphcamError, choice_limit
 from graphcam.files import digest
-from graphcam.language import ENGLISH, language
+from graphcam.language import ENGLISH, language, languages
 from graphcam.showing import higher_function
 from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS
 from graphcam.solving.solve import solve
@@ -154,8 +155,15 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
         "builtin": builtin,
         "language": language,
         "writes": WRITTEN_KINDS,
+        "languages": languages(),
     }
-    return StudioServer(page(config), answer, WrittenFiles(folder, language).write)
+
+    @cache
+    def in_language(name: str) -> str | None:
+        """The page in another language, at an address of its own: a link may say one."""
+        return page({**config, "language": name}) if name in languages() else None
+
+    return StudioServer(page(config), answer, WrittenFiles(folder, language).write, in_language)
 
 
 def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:

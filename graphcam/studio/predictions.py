@@ -15,10 +15,9 @@ from graphcam.given.follower import FlatFaced, Oscillating, OscillatingFlat, Tra
 from graphcam.language import language
 from graphcam.solving.solution import Solution
 from graphcam.solving.solve import solve
-from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
 from graphcam.studio.centre_prediction import centre_foretold
+from graphcam.studio.curve_predictions import angle_foretold, sharpest_foretold, steepest_foretold
 from graphcam.studio.guesses import JudgedGuess, Prediction, ShownStep
-from graphcam.studio.sharpest_prediction import sharpest_foretold
 from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import builtin_task

@@ -171,7 +171,7 @@ def _single_header(headers: Message, name: str) -> str | None:
 class StudioServer(ThreadingTCPServer):
     """A page, and the functions that answer it.
 
-    page : HTML; its scripts stand in it
+    page : HTML; its scripts stand in it;  others : the page in a language, by its name, None where there is none
     engine : answers requests of the page, one at a time
     write : writes the files of a kind, for a request {"kind", "task"}; one at a time too
 
@@ -182,14 +182,16 @@ class StudioServer(ThreadingTCPServer):
 
     daemon_threads = True
 
-    def __init__(self, page: str, engine: Engine, write: Engine) -> None:
+    def __init__(
+        self, page: str, engine: Engine, write: Engine, others: Callable[[str], str | None] = lambda _: None
+    ) -> None:
         super().__init__(("127.0.0.1", 0), _Handler)
         # A new connection is looked for so often, see run.
         self.timeout = CHECK_INTERVAL
         self.page = page.encode()
         self.policy = PAGE_POLICY.format(scripts=script_names(page) or "'none'")
         self.gatekeeper = Gatekeeper(self.server_address[1], new_token())
-        self.engine, self.write = engine, write
+        self.engine, self.write, self.others = engine, write, others
         self._engine_room, self._writing_room = ThreadPoolExecutor(1), ThreadPoolExecutor(1)
         # When each tab is given up; not before the first has shown itself.
         self._ends: dict[bytes, float] = {}
@@ -294,6 +296,9 @@ class _Handler(BaseHTTPRequestHandler):
         if self.path == "/":
             self._check_method("GET")
             self._send(HTTPStatus.OK, "text/html; charset=utf-8", self.server.page, self.server.policy)
+        elif (other := self.server.others(self.path[1:])) is not None:
+            self._check_method("GET")
+            self._send(HTTPStatus.OK, "text/html; charset=utf-8", other.encode(), self.server.policy)
         elif self.path in ("/engine", "/write"):
             self._check_method("POST")
             given = self._request()

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import fields
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 from typing import Any, NamedTuple
 
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
@@ -92,6 +92,7 @@ def multiple_above(limit: float, step: float) -> float:
     return round((math.floor(limit / step + 1e-9) + 1) * step, 9)
 
 
+@lru_cache(maxsize=8)
 def ranges(solution: AnySolution) -> dict[str, SizeRange]:
     """The ranges of all numbers of a task but those of its phases, by their paths.
 
@@ -99,7 +100,7 @@ def ranges(solution: AnySolution) -> dict[str, SizeRange]:
     >>> ranges(gc.solve(gc.builtin_task()))["follower.offset"]
     SizeRange(least=-50.0, most=50.0, step=0.5)
     """
-    said, open_ = solution.task.to_dict(), adopted(solution)
+    said, open_ = _known_sizes(solution)
     found = ruled_ranges(solution)
     for path, number in numbers_of(solution.task).items():
         value = value_at(said, path)
@@ -110,6 +111,23 @@ def ranges(solution: AnySolution) -> dict[str, SizeRange]:
             found[path] = marked_range(number.range, value)
         found[path] = found[path].widened_to(value)
     return found
+
+
+@lru_cache(maxsize=8)
+def _known_sizes(solution: AnySolution) -> tuple[dict[str, Any], dict[str, float | None]]:
+    return solution.task.to_dict(), adopted(solution)
+
+
+def present_value(solution: AnySolution, path: str) -> float | None:
+    """The value of a number of the task, found where the task leaves it open.
+
+    >>> import graphcam as gc
+    >>> present_value(gc.solve(gc.builtin_task()), "cam.prime_radius")
+    44.0
+    """
+    said, open_ = _known_sizes(solution)
+    given = value_at(said, path)
+    return open_.get(path) if given is None else given
 
 
 def _is_absent(task: Task | ArcsTask, path: str) -> bool:

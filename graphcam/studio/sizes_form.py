@@ -13,7 +13,7 @@ from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import DEGREE_SIGN, MOTION, Field, FieldMaker, must_agree
+from graphcam.studio.form_fields import DEGREE_SIGN, MOTION, PHASE_NAMES, Field, FieldMaker, must_agree
 from graphcam.studio.size_ranges import (
     MAX_PHASES,
     MIN_PHASE_ANGLE,
@@ -36,6 +36,15 @@ PENCIL_RANGE = {"pencil": SizeRange(0.0, 0.5, 0.05)}
 """Standard deviation of a line [mm], which a request gives beside the task; 0.2 is a careful student's."""
 RATIO_RANGE = SizeRange(0.2, 5.0, 0.1)
 """The range of the ratio of accelerations of a law's parts."""
+BLEND_RANGE = SizeRange(0.01, 0.98, 0.01)
+"""The range of the part of a phase that a blend takes."""
+PHASE_LAWS = (*LAWS, CONSTANT_VELOCITY)
+RATIO_LAWS = frozenset(name for name, law in DECLARED_LAWS.items() if law.has_ratio)
+"""Only these laws have parts whose accelerations differ."""
+BLEND_NAMES = {
+    "first_blend": say_in("a phase", "Part of the first blend"),
+    "second_blend": say_in("a phase", "Part of the second blend"),
+}
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
 SENSE_NAMES = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
 LIFT_NAMES = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
@@ -192,15 +201,15 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 
 def _phases(make: FieldMaker, solution: Solution) -> Field:
-    """The phases, and what becomes of them when one is added or taken away."""
-    phases: Sequence[dict[str, Any]] = make.said["motion"]["phases"]
-    motion, tell = solution.cam.motion, make.tell
-    lift = max(phase.get("lift", 0.0) for phase in phases)
+    """The phases with their fields, and what becomes of them when one is added or taken away."""
+    phases: PhaseList = make.said["motion"]["phases"]
+    tell = make.tell
     rows = [
         {
             **phase,
             "name": tell(KIND_NAMES[phase["kind"]]),
-            "symbol": tell(phase_symbol(motion, k)),
+            "symbol": tell(phase_symbol(solution.cam.motion, k)),
+            "fields": list(_phase_fields(make, phases, k, _lift_unit(make, solution))),
             "edits": {
                 "remove": phases_without(phases, k),
                 "dwell": with_dwell(phases, k),
@@ -209,22 +218,55 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         }
         for k, phase in enumerate(phases)
     ]
-    lifts = SizeRange(step_for(lift), round_up(1.6 * lift), step_for(lift))
-    return {
-        "path": "motion.phases",
-        "group": tell(MOTION),
-        "name": tell(say("Phases")),
-        "kind": "phases",
-        "phases": rows,
-        "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
-        # Only these laws have parts whose accelerations differ.
-        "ratio": RATIO_RANGE.plain() | {"laws": [name for name, law in DECLARED_LAWS.items() if law.has_ratio]},
-        "blends": {"law": CONSTANT_VELOCITY, "usual": USUAL_BLENDS},
-        "angle": SizeRange(MIN_PHASE_ANGLE, 360.0 - MIN_PHASE_ANGLE * (len(rows) - 1), 1.0).plain()
-        | {"unit": DEGREE_SIGN},
-        "lift": lifts.plain() | {"unit": _lift_unit(make, solution)},
-        "most": MAX_PHASES,
-    }
+    named = {"group": tell(MOTION), "name": tell(say("Phases")), "kind": "phases"}
+    return {"path": "motion.phases", **named, "phases": rows}
+
+
+def _phase_fields(make: FieldMaker, phases: PhaseList, k: int, unit: str) -> Iterator[Field]:
+    """The fields of a phase: its angle goes to a neighbour, and with its lift go those of the other sense."""
+    phase, path, tell = phases[k], f"motion.phases[{k}]", make.tell
+
+    def number(key: str, name: Caption, at: str, value: float, room: SizeRange, **more: Any) -> Field:
+        """A number of the phase."""
+        said = {"path": f"{path}.{at}", "key": f"phase-{key}", "name": tell(name), "unit": "", "kind": "number"}
+        return {**said, "value": value, **room.widened_to(value).plain(), **more}
+
+    if len(phases) > 1:
+        other = k + 1 if k < len(phases) - 1 else k - 1
+        total = phase["angle"] + phases[other]["angle"]
+        rest = {"path": f"motion.phases[{other}].angle", "total": total}
+        room = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0)
+        yield number("angle_of_phase", PHASE_NAMES["angle"], "angle", phase["angle"], room, unit=DEGREE_SIGN, sum=rest)
+    if phase["kind"] == "dwell":
+        return
+    lifts = {f"motion.phases[{j}].lift": each["lift"] for j, each in enumerate(phases) if _opposed(each, phase)}
+    same = math.fsum(each["lift"] for each in phases if each["kind"] == phase["kind"]) - phase["lift"]
+    shares = {at: lift / sum(lifts.values()) for at, lift in lifts.items()}
+    beyond = {at: share * same for at, share in shares.items() if same}
+    step = step_for(max(each.get("lift", 0.0) for each in phases))
+    room, gone = SizeRange(step, round_up(1.6 * phase["lift"]), step), {"with": shares, "beyond": beyond}
+    yield number("lift", PHASE_NAMES["lift"], "lift", phase["lift"], room, unit=unit, **gone)
+    laws = [{"value": law, "name": tell(LAW_TITLES[law]), "changes": _with_law(path, phase, law)} for law in PHASE_LAWS]
+    law = make.choice(f"{path}.law", PHASE_NAMES["law"], ())
+    yield law | {"key": "phase-law", "value": phase["law"], "choices": laws}
+    if phase["law"] in RATIO_LAWS:
+        yield number("ratio", PHASE_NAMES["ratio"], "ratio", phase.get("ratio", 1.0), RATIO_RANGE)
+    if phase["law"] == CONSTANT_VELOCITY:
+        blends = list(phase.get("blends", USUAL_BLENDS))
+        for j, (key, name) in enumerate(BLEND_NAMES.items()):
+            first = {f"{path}.blends": blends}
+            yield number(key, name, f"blends[{j}]", blends[j], BLEND_RANGE, first=first)
+
+
+def _opposed(one: PhaseData, other: PhaseData) -> bool:
+    """Whether one is a rise and the other a return."""
+    return {one["kind"], other["kind"]} == {"rise", "return"}
+
+
+def _with_law(path: str, phase: PhaseData, law: str) -> dict[str, Any]:
+    """The changes that give a phase another law, without the ratio or the blends that it lacks."""
+    lacks = {"ratio": law not in RATIO_LAWS, "blends": law != CONSTANT_VELOCITY}
+    return {f"{path}.law": law, **{f"{path}.{key}": None for key, gone in lacks.items() if gone and key in phase}}
 
 
 def _lift_unit(make: FieldMaker, solution: Solution) -> str:

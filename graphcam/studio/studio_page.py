@@ -20,7 +20,6 @@ from graphcam.sheets.player import PAGE_CAPTIONS as PLAYER_WORDS
 from graphcam.sheets.player_svg import roles_css
 from graphcam.sheets.typefaces import font_faces
 from graphcam.studio.address import FIELDS
-from graphcam.studio.form_fields import PHASE_NAMES
 from graphcam.words import Caption, say, say_in
 
 if TYPE_CHECKING:
@@ -133,12 +132,6 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "phases": say("Phases"),
     "choose_a_phase": say("Choose a phase to change it, or drag a border."),
     "border": say("Border between"),
-    "angle_of_phase": PHASE_NAMES["angle"],
-    "lift": PHASE_NAMES["lift"],
-    "law": say_in("a phase", "Law"),
-    "ratio": PHASE_NAMES["ratio"],
-    "first_blend": say_in("a phase", "Part of the first blend"),
-    "second_blend": say_in("a phase", "Part of the second blend"),
     "phase_dwell": say("Add a dwell after it"),
     "phase_step": say("Split it"),
     "phase_remove": say("Remove it"),

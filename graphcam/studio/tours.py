@@ -13,17 +13,15 @@ rests : by which quantity of a solved task the answer is found, for who checks t
 
 import io
 import json
-import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any
 
 from graphcam.errors import DesignError
 from graphcam.language import language
-from graphcam.studio.task_paths import changed_task, steps_of, value_at
+from graphcam.studio.task_paths import changed_task, steps_of
 from graphcam.tasks.task_file import builtin_task
 from graphcam.words import Caption, Tell, say
 
@@ -32,61 +30,25 @@ TEXT_KEYS = ("title", "about", "ask", "why", "choices")
 
 
 GOAL_PATTERN = re.compile(r"\s*([\w.\[\]]+)\s*(<=|>=|==|<|>)\s*(-?\d+(?:\.\d+)?)\s*")
-SAME_NUMBER = 1e-9
-"""Numbers that differ by less are equal."""
-OPERATORS: Mapping[str, Callable[[float, float], bool]] = {
-    "<=": lambda size, value: size <= value + SAME_NUMBER,
-    ">=": lambda size, value: size >= value - SAME_NUMBER,
-    "==": lambda size, value: math.isclose(size, value, abs_tol=SAME_NUMBER),
-    "<": lambda size, value: size < value,
-    ">": lambda size, value: size > value,
-}
+OPERATORS = "<=", ">=", "==", "<", ">"
 
 
-@dataclass(frozen=True)
-class Goal:
-    """A size at a path of the task, or ``phi``, compared with a number.
-
-    >>> goal_of("follower.offset >= 0").is_reached({"follower": {"offset": -10.0}})
-    False
-    >>> goal_of("phi >= 40").is_reached({}, phi=40.0)
-    True
-    """
-
-    path: str
-    operator: str
-    value: float
-
-    def is_reached(self, task: Mapping[str, Any], phi: float = 0.0) -> bool:
-        """Whether a task, or the cam angle [degrees], has reached it; what is open has not."""
-        size = phi if self.path == "phi" else value_at(task, self.path)
-        if isinstance(size, bool) or not isinstance(size, int | float):
-            return False
-        return OPERATORS[self.operator](float(size), self.value)
-
-    @property
-    def plain(self) -> dict[str, Any]:
-        """The goal as plain data for the page."""
-        return {"path": self.path, "operator": self.operator, "value": self.value}
-
-
-def goal_of(text: str) -> Goal:
-    """The goal that a text tells.
+def goal_of(text: str) -> dict[str, Any]:
+    """The goal that a text tells: a size at a ``path`` of the task, or ``phi``, compared with a number.
 
     Raises
     ------
     DesignError : it is not a path, an operator and a number
 
-    >>> goal_of("__import__('os')")
-    Traceback (most recent call last):
-    graphcam.errors.DesignError: goal is "__import__('os')", but must be a path, one of <=, >=, ==, <, > and a number
+    >>> goal_of("follower.offset >= 0")
+    {'path': 'follower.offset', 'operator': '>=', 'value': 0.0}
     """
     found = GOAL_PATTERN.fullmatch(text)
     if found is None:
         raise DesignError("goal", text, say("a path, one of {names} and a number", names=", ".join(OPERATORS)))
     path, operator, value = found.groups()
     steps_of(path)
-    return Goal(path, operator, float(value))
+    return {"path": path, "operator": operator, "value": float(value)}
 
 
 @cache
@@ -116,7 +78,7 @@ def _card(card: Mapping[str, Any], built_in: str, tell: Tell) -> dict[str, Any]:
     said: dict[str, Any] = {name: tell(Caption(card[name])) for name in ("ask", "why")}
     if "choices" in card:
         said |= {"choices": [tell(Caption(choice)) for choice in card["choices"]], "answer": card["answer"]}
-    goal = goal_of(card["goal"]).plain if "goal" in card else None
+    goal = goal_of(card["goal"]) if "goal" in card else None
     shown = {name: card[name] for name in ("view", "step")}
     return {**shown, **said, "task": card_task(built_in, card), "phi": card.get("phi", 0.0), "goal": goal}
 

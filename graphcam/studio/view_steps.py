@@ -44,6 +44,16 @@ SHORT_VIEW_NAMES: Mapping[str, Caption] = {
 """What views are called where there is little room; one without a short name bears its title."""
 
 
+@dataclass(frozen=True)
+class ViewName:
+    """What a view is called: its name, its title in whole and in short, and the number of its steps."""
+
+    name: str
+    title: str
+    short: str
+    steps: int
+
+
 @dataclass(frozen=True, eq=False)
 class NamedStep:
     """A step with its names.
@@ -109,18 +119,13 @@ class ViewSteps:
             "unit": "°" if degrees else tell(unit(read.unit)),
         }
 
-    def names(self, tell: Tell) -> list[dict[str, object]]:
+    def names(self, tell: Tell) -> tuple[ViewName, ...]:
         """What an answer says of every view."""
         counts = Counter(each.step.view.name for each in self.steps)
-        return [
-            {
-                "name": name,
-                "title": tell(view.title),
-                "short": tell(SHORT_VIEW_NAMES.get(name, view.title)),
-                "steps": counts[name],
-            }
+        return tuple(
+            ViewName(name, tell(view.title), tell(SHORT_VIEW_NAMES.get(name, view.title)), counts[name])
             for name, view in self.views.items()
-        ]
+        )
 
 
 def view_steps(

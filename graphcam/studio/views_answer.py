@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, TypeVar
 
 from graphcam.constructions.views import COMBINED
@@ -29,7 +29,7 @@ from graphcam.studio.held_solutions import (
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.studio_values import compared_quantities, given_sizes, sizes, values, warnings
 from graphcam.studio.task_paths import changed_task
-from graphcam.studio.view_steps import StepsData, ViewSteps, steps_data, view_steps
+from graphcam.studio.view_steps import StepsData, ViewName, ViewSteps, steps_data, view_steps
 from graphcam.studio.views_request import AskedView, ViewsRequest, views_request
 from graphcam.studio.what_if import swept_fields
 
@@ -107,13 +107,13 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
     told = clock.timed("told", lambda: _steps_of_request(request, known, asked, spoken))
     drawn = clock.timed("svg", lambda: _drawn_views(solution, known, asked, spoken, hold))
     plain = clock.timed("svg", lambda: [_view(view, drawn[key_of(view)], known, told, spoken) for view in asked])
-    names = list(hold.names) if hold else known.names(spoken.text)
+    names = hold.names if hold else known.names(spoken.text)
     # What cannot be drawn is not offered: else it would be refused where it is looked at.
     if not hold and has_far_centre(solution):
-        names = [each for each in names if each["name"] != COMBINED.name]
+        names = tuple(each for each in names if each.name != COMBINED.name)
     return {
         "changes": moved.changes,
-        "names": names,
+        "names": [asdict(each) for each in names],
         "views": plain,
         **clock.timed("exact", lambda: _numbers(solution, known, request, spoken)),
         "sizes": given_sizes(solution) if request.upto else sizes(solution),
@@ -206,7 +206,11 @@ def _numbers(solution: AnySolution, known: ViewSteps, request: ViewsRequest, spo
 
 
 def _kept_hold(
-    solution: AnySolution, known: ViewSteps, drawn: Mapping[str, DrawnView], names: list[Plain], hold: DragHold | None
+    solution: AnySolution,
+    known: ViewSteps,
+    drawn: Mapping[str, DrawnView],
+    names: tuple[ViewName, ...],
+    hold: DragHold | None,
 ) -> DragHold:
     """What the next answer may keep of this one; what was held before stays held."""
     former = hold or DragHold()
@@ -215,4 +219,4 @@ def _kept_hold(
     of_motion = diagrams_of(solution) if isinstance(solution, Solution) else None
     views = {**former.views, **{key: view.kept for key, view in drawn.items()}}
     station = former.station if hold else station_of(known.drawn)
-    return DragHold(scales, former.diagrams if hold else of_motion, station, views, tuple(names))
+    return DragHold(scales, former.diagrams if hold else of_motion, station, views, names)

@@ -1,7 +1,7 @@
 """What if one size were another: the curves of a sweep of designs, from the exact side alone."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -19,21 +19,21 @@ from graphcam.mechanism.three_arc_cam import three_arc_cam
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import POINT_NAMES, must_agree, unit_of
+from graphcam.studio.form_fields import Field
 from graphcam.studio.handle import changes_with
 from graphcam.studio.held_solutions import held_solution
-from graphcam.studio.size_ranges import ARC_POINTS, MIN_PHASE_ANGLE, SizeRange, has_angles, lift_size, ranges, sizes_of
-from graphcam.studio.task_paths import changed_task, value_at
+from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, has_angles, sizes_of
+from graphcam.studio.sizes_form import form_of
+from graphcam.studio.task_paths import changed_task
 from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.declared_numbers import numbers_of
 from graphcam.tasks.task import Task
 from graphcam.words import Caption, Tell, say
 
 DEFAULT_DESIGNS, MAX_DESIGNS = 200, 400
 MAX_MEASURED_DESIGNS = 60
 """The maximum number of designs of a measured motion, whose extremes take ten times as long."""
-UNSWEPT_PATHS = "motion.tolerance", "speed_rpm", "spring.", "material.", "drawing."
+UNSWEPT_PATHS = "motion.tolerance", "speed_rpm", "spring.", "material.", "drawing.", "pencil"
 """How the paths of sizes begin that change none of the curves, or too slowly."""
 MAX_SIZE = 1e6
 PHASE_FACTOR = 2.5
@@ -152,116 +152,69 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
     """
     task, spoken = task_data(data), language(optional_value(data, "language", str, "en"))
     solution = held_solution(task, spoken.name)
-    sizes = swept_sizes(solution)
+    sizes = {field["path"]: field for field in swept_fields(solution, spoken.text)}
     path = optional_value(data, "path", str, next(iter(sizes)))
     if path not in sizes:
         raise DesignError("path", path, say("a size of the task that can be swept"))
-    at = _places(data, sizes[path][1], solution)
-    designs = [_design(changed_task(task, with_size(solution, path, value))) for value in at]
+    at = _places(data, sizes[path], solution)
+    designs = [_design(changed_task(task, changes_with(sizes[path], path, value))) for value in at]
     wanted = optional_value(data, "quantities", list, list(CURVE_TITLES))
     return {
         "path": path,
-        "now": _present_value(solution, path),
+        "now": sizes[path]["value"],
         "at": at,
         "curves": _curves(designs, wanted, spoken.text),
         "limits": _limits(solution),
-        "sizes": swept_fields(solution, spoken.text),
+        "sizes": list(sizes.values()),
     }
 
 
-def _places(data: Mapping[str, Any], room: SizeRange, solution: AnySolution) -> list[float]:
+def _places(data: Mapping[str, Any], field: Field, solution: AnySolution) -> list[float]:
     """The values that the size takes."""
-    first = number(data, "from", room.least, -MAX_SIZE, MAX_SIZE)
-    last = number(data, "to", room.most, -MAX_SIZE, MAX_SIZE)
+    first = number(data, "from", field["min"], -MAX_SIZE, MAX_SIZE)
+    last = number(data, "to", field["max"], -MAX_SIZE, MAX_SIZE)
     count = optional_whole_number(data, "count", DEFAULT_DESIGNS, 2, MAX_DESIGNS) or DEFAULT_DESIGNS
     if isinstance(solution, Solution) and isinstance(solution.cam.motion, MeasuredMotion):
         count = min(count, MAX_MEASURED_DESIGNS)
     return [round(value, 9) for value in np.linspace(first, last, count).tolist()]
 
 
-def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, str]]:
-    """The sizes that can be swept, by their paths: name, range and unit."""
-    found = ranges(solution)
-    sizes = {
-        path: (number.name, found[path], unit_of(solution.task, path, number))
-        for path, number in numbers_of(solution.task).items()
-        if number.name and path in found and not path.startswith(UNSWEPT_PATHS)
-    }
-    return sizes | (_of_points(solution) if isinstance(solution, ArcsSolution) else _phase_sizes(solution))
-
-
-def _of_points(solution: ArcsSolution) -> dict[str, tuple[Caption, SizeRange, str]]:
-    """The coordinates of the points that are given, on both sides of where they are."""
-    found, sizes = ranges(solution), dict[str, tuple[Caption, SizeRange, str]]()
-    for name in ARC_POINTS:
-        for k, (axis, value) in enumerate(zip("xy", getattr(solution.task.arcs, name) or (), strict=False)):
-            path = f"arcs.{name}[{k}]"
-            least, most, step = found[path]
-            near = (most - least) / 2
-            room = SizeRange(round(value - near, 1), round(value + near, 1), step)
-            sizes[path] = say("{point}, {axis}", point=POINT_NAMES[name], axis=axis), room, "mm"
-    return sizes
-
-
-def _phase_sizes(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]]:
-    """Caption, range and unit of each phase's angle, which the next one pays for, and of the lift, by their paths."""
-    phases, motion = solution.task.motion.phases, solution.cam.motion
-    if phases is None:
-        return {}
-    sizes: dict[str, tuple[Caption, SizeRange, str]] = {}
-    for k, phase in enumerate(phases):
-        room = phase.angle + phases[(k + 1) % len(phases)].angle - MIN_PHASE_ANGLE
-        name = say("Angle of the {phase}", phase=phase_title(motion, k))
-        least, most = max(MIN_PHASE_ANGLE, phase.angle / PHASE_FACTOR), min(room, phase.angle * PHASE_FACTOR)
-        sizes[f"motion.phases[{k}].angle"] = name, SizeRange(round(least), round(most), 1.0), "°"
-    lift = lift_size(solution.task)
-    unit = "mm" if solution.task.motion.lift_unit == 1.0 else "°"
-    return sizes | ({lift.path: (say("Lift"), lift.range, unit)} if lift else {})
-
-
-def with_size(solution: AnySolution, path: str, value: float) -> dict[str, Any]:
-    """The changes that give a task another value of one size, and what has to go with it.
+def swept_fields(solution: AnySolution, tell: Tell) -> list[Field]:
+    """The fields of the form that can be swept, with what was found for open ones, and the angles of the phases.
 
     >>> import graphcam as gc
-    >>> with_size(gc.solve(gc.builtin_task()), "motion.phases[0].angle", 90.0)
-    {'motion.phases[0].angle': 90.0, 'motion.phases[1].angle': 35.0}
+    >>> [field["name"] for field in swept_fields(gc.solve(gc.builtin_task("flat")), str)][:2]
+    ['Lift h', 'Prime radius r₀']
     """
-    return changes_with(_extra(solution, path), path, value)
-
-
-def _extra(solution: AnySolution, path: str) -> Mapping[str, Any]:
-    """What is changed with a size, see :func:`~graphcam.studio.handle.changes_with`."""
-    if isinstance(solution, ArcsSolution):
-        name = path.removeprefix("arcs.").split("[")[0]
-        return {"first": dict.fromkeys(must_agree(solution.task.arcs, name))} if path.startswith("arcs.") else {}
-    phases = solution.task.motion.phases or ()
-    if path.endswith("].angle"):
-        k = int(path.split("[")[1].split("]")[0])
-        other = (k + 1) % len(phases)
-        return {"sum": {"path": f"motion.phases[{other}].angle", "total": phases[k].angle + phases[other].angle}}
-    lift = lift_size(solution.task)
-    return {"with": lift.shares} if lift and path == lift.path else {}
-
-
-def swept_fields(solution: AnySolution, tell: Tell) -> list[dict[str, Any]]:
-    """The sizes that can be swept as the page reads them.
-
-    >>> import graphcam as gc
-    >>> [field["name"] for field in swept_fields(gc.solve(gc.builtin_task("flat")), str)][-1]
-    'Lift'
-    """
-    return [
-        {
-            "path": path,
-            "name": tell(name),
-            "unit": tell(UNITS.get(unit, unit)),
-            "value": _present_value(solution, path),
-            **room.plain(),
-            **_extra(solution, path),
-        }
-        for path, (name, room, unit) in swept_sizes(solution).items()
-        if room.least < room.most
+    fields = [
+        {**field, "value": field.get("adopted") if field["value"] is None else field["value"]}
+        for field in form_of(solution, tell)
+        if field.get("min", 0.0) < field.get("max", 0.0) and not field["path"].startswith(UNSWEPT_PATHS)
     ]
+    if isinstance(solution, Solution):
+        return [*fields, *_phase_angles(solution, tell)]
+    # A point of the arcs on both sides of where it is: few places make a cam.
+    points = [field for field in fields if field["path"].endswith("]")]
+    for point, near in zip(points, [(each["max"] - each["min"]) / 2 for each in points], strict=True):
+        point |= {"min": round(point["value"] - near, 1), "max": round(point["value"] + near, 1)}
+    return fields
+
+
+def _phase_angles(solution: Solution, tell: Tell) -> Iterator[Field]:
+    """Each phase's angle, which the next one pays for."""
+    phases = solution.task.motion.phases or ()
+    for k, phase in enumerate(phases):
+        other = (k + 1) % len(phases)
+        total = phase.angle + phases[other].angle
+        least, most = max(MIN_PHASE_ANGLE, phase.angle / PHASE_FACTOR), min(total - 1.0, phase.angle * PHASE_FACTOR)
+        yield {
+            "path": f"motion.phases[{k}].angle",
+            "name": tell(say("Angle of the {phase}", phase=phase_title(solution.cam.motion, k))),
+            "unit": "°",
+            "value": phase.angle,
+            **SizeRange(round(least), round(most), 1.0).plain(),
+            "sum": {"path": f"motion.phases[{other}].angle", "total": total},
+        }
 
 
 def _design(task: dict[str, Any]) -> Design:
@@ -284,16 +237,6 @@ def _curves(designs: Sequence[Design], wanted: Sequence[Any], tell: Tell) -> lis
         for name, (title, unit) in CURVE_TITLES.items()
         if name in wanted and any(each.get(name) is not None for each in designs)
     ]
-
-
-def _present_value(solution: AnySolution, path: str) -> float | None:
-    """The present value of the size, found where the task leaves it open."""
-    given = value_at(solution.task.to_dict(), path)
-    if given is not None or isinstance(solution, ArcsSolution):
-        return given
-    chain = solution.chain
-    found = {"prime_radius": chain.prime_radius, "roller_radius": chain.roller_radius}
-    return found.get(path.split(".")[1], chain.place if path.startswith("follower.") else None)
 
 
 def _limits(solution: AnySolution) -> dict[str, float | None]:

@@ -2,8 +2,9 @@
 
 ``python tests/studio/slider_times.py [--pyodide DIR]``, with ``tests`` on the path, moves the offset of the coursework
 task a hundred times in each of three views.  It tells the median and the 95th percentile from the event to the painted
-picture, and what the engine took of it; with a folder of Pyodide also for the one file, its size, and the processor
-time from its opening to its first answer.  On an idle machine.
+picture, and what the engine took of it, and how many pictures a hand sees that moves every 16 ms; with a folder of
+Pyodide also for the one file, its size, and the processor time from its opening to its first answer.  On an idle
+machine.
 """
 
 from __future__ import annotations
@@ -49,6 +50,26 @@ MOVED = """async ([from, by, moves]) => {
   return found;
 }"""
 
+STREAM = """async ([from, by, moves, apart]) => {
+  const slider = document.querySelector("[data-key='follower.offset/range']");
+  const wait = (time) => new Promise((done) => setTimeout(done, time)), begin = performance.now();
+  const steps = document.getElementById("steps");
+  let pictures = 0;
+  new MutationObserver(() => { pictures += 1; }).observe(steps, { childList: true, subtree: true });
+  dispatchEvent(new PointerEvent("pointerdown"));
+  for (let k = 0; k < moves; k += 1) {
+    slider.value = from + by * (k + 1);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    await wait(Math.max(0, begin + apart * (k + 1) - performance.now()));
+  }
+  while (!studio.quiet()) await wait(1);
+  dispatchEvent(new PointerEvent("pointerup"));
+  return pictures;
+}"""
+"""A hand that moves without waiting: how many pictures it sees."""
+STREAMED, APART = 48, 16
+"""So many moves, so many milliseconds apart."""
+
 
 @contextmanager
 def served() -> Iterator[str]:
@@ -66,15 +87,19 @@ def served() -> Iterator[str]:
 
 def processor_time() -> float:
     """Of all Chromiums that this process has started [s]."""
-    ticks = 0
+    ticks, children = dict[int, int](), dict[int, list[int]]()
     for stat in Path("/proc").glob("[0-9]*/stat"):
         try:
             name, _, rest = stat.read_text(encoding="utf-8").rpartition(") ")
         except OSError:  # it has ended
             continue
-        if "(chrom" in name:
-            ticks += sum(map(int, rest.split()[11:13]))
-    return ticks / os.sysconf("SC_CLK_TCK")
+        process = int(stat.parent.name)
+        children.setdefault(int(rest.split()[1]), []).append(process)
+        ticks[process] = sum(map(int, rest.split()[11:13])) if "(chrom" in name else 0
+    own = [os.getpid()]
+    for process in own:
+        own += children.get(process, [])
+    return sum(ticks.get(process, 0) for process in own) / os.sysconf("SC_CLK_TCK")
 
 
 def told(page: Page, where: str) -> None:
@@ -85,6 +110,8 @@ def told(page: Page, where: str) -> None:
         pictures, engines = (sorted(times) for times in zip(*page.evaluate(MOVED, [-15, 0.5, MOVES]), strict=True))
         middle, late = statistics.median(pictures), pictures[int(0.95 * MOVES)]
         engine = statistics.median(engines)
+        seen = page.evaluate(STREAM, [-15, 0.5, STREAMED, APART])
+        sys.stdout.write(f"{where}, {view}: {seen} pictures of {STREAMED} moves every {APART} ms\n")
         sys.stdout.write(f"{where}, {view}: median {middle:.0f} ms, 95 % {late:.0f} ms, engine {engine:.0f} ms\n")
 
 

@@ -9,14 +9,14 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
 from graphcam.studio.engine import answer
+from graphcam.studio.handle import changes_with
 from graphcam.studio.task_paths import changed_task
 from graphcam.studio.what_if import (
     DEFAULT_DESIGNS,
     MAX_MEASURED_DESIGNS,
     exact_design,
     sweep_answer,
-    swept_sizes,
-    with_size,
+    swept_fields,
 )
 
 
@@ -31,11 +31,11 @@ def curve(found, name):
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_every_size_can_be_swept(name):
-    for path, (_, room, _) in swept_sizes(solved(name)).items():
-        found = swept(name, path, count=5)
+    for field in swept_fields(solved(name), str):
+        found = swept(name, field["path"], count=5)
         json.dumps(found, allow_nan=False)
-        assert found["at"][0] == pytest.approx(room.least)
-        assert found["at"][-1] == pytest.approx(room.most)
+        assert found["at"][0] == pytest.approx(field["min"])
+        assert found["at"][-1] == pytest.approx(field["max"])
         assert all(len(each["values"]) == len(found["at"]) for each in found["curves"])
         # In the middle of its range stands a design, or near what is given.
         assert found["curves"]
@@ -96,9 +96,10 @@ def test_where_there_is_no_cam_there_is_no_value():
 
 def test_phases_stay_closed():
     solution = solved("coursework")
-    for path in swept_sizes(solution):
-        if path.startswith("motion"):
-            task = rebuilt(changed_task(plain_task("coursework"), with_size(solution, path, 40.0)))
+    for field in swept_fields(solution, str):
+        if field["path"].startswith("motion"):
+            changes = changes_with(field, field["path"], 40.0)
+            task = rebuilt(changed_task(plain_task("coursework"), changes))
             assert math.fsum(phase.angle for phase in task.motion.phases) == pytest.approx(360)
 
 

@@ -164,7 +164,14 @@ def pages(*, in_firefox: bool) -> Iterator[Callable[[], Page]]:
             yield lambda: cast("Page", FirefoxPage(client))
     else:
         with chromium() as browser:
-            yield lambda: browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+
+            def opened() -> Page:
+                """A page that has time: a busy machine is slow, and no page is stuck for it."""
+                page = browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+                page.set_default_timeout(120_000)
+                return page
+
+            yield opened
 
 
 def main() -> None:

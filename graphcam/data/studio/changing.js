@@ -145,10 +145,9 @@ function changingOf(page) {
   // --- what is said of it ---------------------------------------------------------------------------------------------------------
 
   function phasesSaid() {
-    const { phases = [], lift } = last.form?.find((field) => field.kind === "phases") || {};
-    return phases.flatMap((phase, k) => ["angle", ...(k ? ["lift"] : [])].map((what) => ({
-      path: `motion.phases[${k}].${what}`, name: `${phase.symbol} ${phase.name}`, unit: what === "lift" ? lift.unit : "°",
-    })));
+    const { phases = [] } = last.form?.find((field) => field.kind === "phases") || {};
+    const isSaid = ({ path }, k) => path.endsWith(".angle") || (k && path.endsWith(".lift"));
+    return phases.flatMap(({ symbol, name, fields }, k) => fields.filter((field) => isSaid(field, k)).map((field) => ({ ...field, name: `${symbol} ${name}` })));
   }
 
   // One sentence when something came to rest.

@@ -1,4 +1,4 @@
-// A guess on the drawing: a dashed amber knob that moves on a polyline, or freely in a box, in the view's millimetres.
+// A guess on the drawing: a dashed amber handle that moves on a polyline, or freely in a box, in the view's millimetres.
 "use strict";
 
 // --- a polyline by the length along it -----------------------------------------------------------------------------------
@@ -31,48 +31,32 @@ function wayOf(points) {
 
 // --- where the guess is: one number along a way, or two in a box ------------------------------------------------------------
 
+// As the axes of a handle: going down is going on.
 function placesOf({ way, free }, words) {
-  const round = (mm) => Math.round(mm * 100) / 100;
+  const round = (mm) => Math.round(mm * 100) / 100, keys = { unit: "mm", step: 1, fine: 0.2, coarse: 10 };
   if (!free) {
-    const line = wayOf(way);
-    const axis = { name: words.guess_along, min: 0, max: round(line.length), arrows: { ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1, ArrowDown: 1 } };
+    const line = wayOf(way), axis = { ...keys, path: "guess", name: words.guess_along, min: 0, max: round(line.length), screen: "x", up: -1 };
     return { axes: [axis], place: ([along]) => line.placeAt(along), values: (place) => [round(line.nearest(place))] };
   }
-  const [[x1, y1], [x2, y2]] = way;
-  const axes = [
-    { name: words.guess_across, min: Math.min(x1, x2), max: Math.max(x1, x2), arrows: { ArrowRight: 1, ArrowLeft: -1 } },
-    { name: words.guess_down, min: Math.min(y1, y2), max: Math.max(y1, y2), arrows: { ArrowDown: 1, ArrowUp: -1 } },
-  ];
+  const axes = [0, 1].map((k) => ({
+    ...keys, path: `guess[${k}]`, name: [words.guess_across, words.guess_down][k], screen: "xy"[k], sign: [1, -1][k],
+    min: Math.min(way[0][k], way[1][k]), max: Math.max(way[0][k], way[1][k]),
+  }));
   const within = (value, { min, max }) => Math.max(min, Math.min(max, value));
   return { axes, place: (values) => values, values: (place) => place.map((mm, k) => round(within(mm, axes[k]))) };
 }
 
-// --- the knob ------------------------------------------------------------------------------------------------------------------
+// --- the guess -----------------------------------------------------------------------------------------------------------------
 
-// `moved` is told of every move; the layer is drawn under the knobs, in the drawing itself.
+// It is a handle among those of the drawing; `moved` is told of every move, its marks are drawn in the drawing itself.
 function guessOf(studio, asked, letter, moved) {
-  const { words, stage } = studio, hands = document.getElementById("hands");
+  const { words, stage } = studio, view = () => studio.state.get().view;
   const places = placesOf(asked, words), layer = drawSvg("g", "guesses", { "aria-hidden": "true" }, stage.layers.drawing);
-  let values = places.values(asked.start), still = false, off = null, marks = null, touched = false;
-
-  const knob = make("div", { class: "hand guess", role: places.axes.length > 1 ? "group" : null, "aria-label": places.axes.length > 1 ? words.guess : null });
-  const picture = drawSvg("svg", "knob", { viewBox: "-22 -22 44 44", "aria-hidden": "true" }, knob);
-  drawSvg("circle", "halo", { r: 15 }, picture);
-  drawSvg("circle", "ring", { r: 9 }, picture);
-  drawSvg("text", "letter", { y: 4.5 }, picture).textContent = letter;
-  const inputs = places.axes.map(({ name, min, max }, k) => make("input", {
-    type: "range", class: "unseen", step: "any", min, max, "aria-label": name, tabindex: k ? -1 : 0, "data-guess": k,
-  }));
-  knob.append(...inputs);
-  hands.append(knob);
+  let values = places.values(asked.start), still = false, marks = null, touched = false;
 
   const place = () => places.place(values);
   // What guess and answer look like in the view that is shown; null where they are not seen.
-  const shown = () => {
-    const own = (studio.state.get().view ?? asked.view), [guess, answer] = [place(), null];
-    if (marks) return marks[own] || null;
-    return own === asked.view ? { guess, answer } : null;
-  };
+  const shown = () => (marks ? marks[view() ?? asked.view] || null : (view() ?? asked.view) === asked.view ? { guess: place(), answer: null } : null);
 
   function set(next) {
     if (still) return;
@@ -85,7 +69,7 @@ function guessOf(studio, asked, letter, moved) {
   // Before it is moved it lies where it is seen: the frame is known only when the view is drawn.
   function comeInSight() {
     const frame = stage.frame(), seen = ([x, y]) => x > frame[0] && x < frame[0] + frame[2] && y > frame[1] && y < frame[1] + frame[3];
-    if (touched || still || asked.free || !frame || studio.state.get().view !== asked.view || seen(place())) return;
+    if (touched || still || asked.free || !frame || view() !== asked.view || seen(place())) return;
     const { max } = places.axes[0], found = Array.from({ length: 41 }, (_, k) => (max * (40 - k)) / 40).find((along) => seen(places.place([along])));
     if (found === undefined) return;
     values = [Math.round(0.9 * found)];
@@ -96,17 +80,13 @@ function guessOf(studio, asked, letter, moved) {
     comeInSight();
     const at = shown();
     layer.replaceChildren();
-    knob.hidden = !at;
-    inputs.forEach((input, k) => {
-      input.value = values[k];
-      input.setAttribute("aria-valuetext", `${values[k].toFixed(1)} mm`);
-      input.disabled = still;
+    studio.setGuess(at && {
+      handle: { id: "guess", view: asked.view, name: words.guess, letter, at: at.guess, axes: places.axes.map((axis, k) => ({ ...axis, value: values[k] })) },
+      drag: (to) => set(places.values(to)), change: (changes) => set(places.axes.map(({ path }, k) => changes[path] ?? values[k])),
     });
     if (!at) return;
-    const [x, y] = stage.toScreen(at.guess);
-    knob.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     const line = (from, to, kind) => drawSvg("path", kind, { d: `M${from.join(" ")}L${to.join(" ")}` }, layer);
-    if (asked.pole && studio.state.get().view === asked.view) {
+    if (asked.pole && view() === asked.view) {
       line(asked.pole, at.guess, "ray");
       if (at.answer) line(asked.pole, at.answer, "found-ray");
     } else if (!marks && !asked.free) drawSvg("path", "way", { d: `M${asked.way.map((point) => point.join(" ")).join("L")}` }, layer);
@@ -115,51 +95,12 @@ function guessOf(studio, asked, letter, moved) {
     drawSvg("circle", "answer", { cx: at.answer[0], cy: at.answer[1], r: 7 / stage.scale({ frame: stage.frame() }) }, layer);
   }
 
-  // --- hand and keys
-
-  const box = () => hands.getBoundingClientRect();
-  knob.addEventListener("pointerdown", (event) => {
-    if (event.button || still) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const [x, y] = stage.toScreen(place());
-    off = [box().left + x - event.clientX, box().top + y - event.clientY];
-    knob.setPointerCapture(event.pointerId);
-    inputs[0].focus({ preventScroll: true });
-  });
-  knob.addEventListener("pointermove", (event) => {
-    if (!off) return;
-    event.stopPropagation();
-    set(places.values(stage.toDrawing(event.clientX + off[0], event.clientY + off[1])));
-  });
-  for (const name of ["pointerup", "pointercancel"]) knob.addEventListener(name, () => (off = null));
-
-  function pressed(event, focused) {
-    const { key, shiftKey, ctrlKey, metaKey, altKey } = event;
-    if (ctrlKey || metaKey || altKey || still) return;
-    const k = Math.max(places.axes.findIndex((axis) => axis.arrows[key]), key.startsWith("Arrow") ? -1 : focused);
-    if (k < 0) return;
-    const axis = places.axes[k], by = shiftKey ? 0.2 : 1;
-    const steps = { ...axis.arrows, PageUp: 10 / by, PageDown: -10 / by };
-    const next = key === "Home" ? axis.min : key === "End" ? axis.max : values[k] + by * (steps[key] ?? NaN);
-    if (Number.isNaN(next)) return;
-    event.preventDefault();
-    event.stopPropagation();
-    inputs[k].focus({ preventScroll: true });
-    set(values.map((value, j) => (j === k ? next : value)));
-  }
-  inputs.forEach((input, k) => {
-    input.addEventListener("keydown", (event) => pressed(event, k));
-    input.addEventListener("input", () => set(values.map((value, j) => (j === k ? Number(input.value) : value))));
-  });
-
   show();
   return {
     axes: places.axes, values: () => values, place, set, show,
     // No longer moved: where guess and answer lie, by views.
     settle: (found) => ([still, marks] = [true, found], show()),
     hold: (yes) => ((still = yes), show()),
-    focus: () => inputs[0].focus(),
-    remove: () => (knob.remove(), layer.remove()),
+    remove: () => (studio.setGuess(null), layer.remove()),
   };
 }

@@ -9,10 +9,10 @@ const ARROWS = { ArrowRight: ["x", 1], ArrowLeft: ["x", -1], ArrowUp: ["y", 1], 
 
 // The next value by a key, within the ends; undefined for keys that move nothing.
 function valueByKey(axis, key, fine) {
-  const { value, min, max, step, coarse, sign = 1 } = axis;
-  const by = fine ? axis.fine ?? step / 5 : step, way = ARROWS[key] ? sign : 1;
+  const { value, min, max, step, coarse, sign = 1, up = sign } = axis;
+  const by = fine ? axis.fine ?? step / 5 : step;
   const next = {
-    ArrowRight: value + way * by, ArrowUp: value + way * by, ArrowLeft: value - way * by, ArrowDown: value - way * by,
+    ArrowRight: value + sign * by, ArrowUp: value + up * by, ArrowLeft: value - sign * by, ArrowDown: value - up * by,
     PageUp: value + (coarse ?? 5 * step), PageDown: value - (coarse ?? 5 * step), Home: min, End: max,
   }[key];
   if (next === undefined) return undefined;
@@ -64,13 +64,14 @@ function handsOf(at, stage, acts) {
   function knobOf(handle) {
     const two = handle.axes.length > 1;
     const knob = make("div", {
-      class: "hand", "data-id": handle.id, title: handle.name, role: two ? "group" : null, "aria-label": two ? handle.name : null,
+      class: handle.letter ? "hand guess" : "hand", "data-id": handle.id, title: handle.name, role: two ? "group" : null, "aria-label": two ? handle.name : null,
       "aria-roledescription": two ? word("slider_2d") : null,
     });
     const picture = drawSvg("svg", "knob", { viewBox: "-22 -22 44 44", "aria-hidden": "true" }, knob);
     drawSvg("circle", "halo", { r: 15 }, picture);
     drawSvg("circle", "ring", { r: 8 }, picture);
     drawSvg("path", "ways", {}, picture);
+    if (handle.letter) drawSvg("text", "letter", { y: 4.5 }, picture).textContent = handle.letter;
     knob.append(...handle.axes.map((_, k) => sliderOf(handle, k)));
     knob.addEventListener("pointerdown", (event) => down(event, handle.id));
     knob.addEventListener("dblclick", () => type(current(handle.id), knob));
@@ -79,7 +80,7 @@ function handsOf(at, stage, acts) {
   }
 
   const current = (id) => handles.find((one) => one.id === id);
-  const shapeOf = (handle) => JSON.stringify([handle.axes.map((axis) => axis.path), handle.name]);
+  const shapeOf = (handle) => JSON.stringify([handle.axes.map((axis) => axis.path), handle.name, handle.letter]);
 
   function place(handle) {
     const knob = knobs.get(handle.id), [x, y] = stage.toScreen(handle.at);
@@ -159,7 +160,7 @@ function handsOf(at, stage, acts) {
     held = null;
     knobs.get(id)?.classList.remove("down");
     chip();
-    drop(cancelled || !moved);
+    drop(cancelled || !moved, id);
   }
 
   at("hands").addEventListener("pointermove", move);

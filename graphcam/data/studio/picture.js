@@ -77,7 +77,7 @@ function pictureOf(page) {
   function showHands() {
     const found = now().board || now().inert ? [] : last.handles || [];
     for (const pane of page.panes) {
-      const wanted = page.handlesIn(pane, found);
+      const wanted = [...page.handlesIn(pane, found), ...(page.guess && pane === page.panes[0] ? [page.guess.handle] : [])];
       pane.hands.show(wanted);
       pane.hands.away(Boolean(page.failed));
       page.showCursor(pane, wanted);

@@ -6,7 +6,7 @@ const STEP_BY_STEP = 550;
 
 studioModes.predict = (() => {
   let studio = null, asked = null, guess = null, round = 0, seed = 0, timer = 0, going = null, kind = null, task = null;
-  let watching = false, own = null;
+  let watching = false;
 
   const word = (name) => studio.words[name] ?? name;
   const letter = { centre: "A?", angle: "α?", steepest: "φ?", sharpest: "ρ?" };
@@ -164,8 +164,6 @@ studioModes.predict = (() => {
 
   function enter(page) {
     studio = page;
-    const { name } = studio.state.get();
-    own = { task: studio.state.get().task, name };
     if (!watching) {
       studio.state.subscribe((names) => changed(names));
       studio.stage.onMove(() => guess?.show());
@@ -184,8 +182,6 @@ studioModes.predict = (() => {
     document.body.classList.remove("guessing");
     document.removeEventListener("keydown", pressed, true);
     studio.state.set({ only: null, inert: false, hidden: [], step: null, part: null });
-    // The person's own task is given back.
-    if (studio.state.get().task !== own.task) studio.load(own.task, own.name);
   }
 
   return { enter, leave };

@@ -3,27 +3,29 @@
 
 function sizesOf(at, acts) {
   const { change, slide, leave, refused, word, decimal } = acts;
-  const rows = new Map(), phases = phasesOf({ ...acts, isRefused: () => errorAt !== null, refuse: () => refuseText(phases.row) });
-  let shape = "", shown = "", errorAt = null;
+  const rows = new Map(), phases = phasesOf({ ...acts, showFields, isRefused: () => errorAt !== null });
+  let shape = "", shown = "", errorAt = null, ofPhase = "", edited = null;
 
   // What is seldom moved is closed at first.
   const SELDOM = /^(drawing|pencil|spring|material)/;
   // What is moved most stands first: on a phone it lies under the thumb.
   const FIRST = /^(follower\.(offset|arm)|arcs)/;
-  const idOf = (path) => `size-${path.replace(/\W+/g, "-")}`;
+  const keyOf = ({ key, path }) => key ?? path;
+  const idOf = (field) => `size-${keyOf(field).replace(/\W+/g, "-")}`;
 
   // --- one field -------------------------------------------------------------------------------------------------------
 
   function numberInput(field, row) {
     const input = make("input", {
-      type: "text", inputmode: "decimal", id: idOf(field.path), "data-key": field.path, autocomplete: "off",
-      "aria-describedby": `${idOf(field.path)}-error`,
+      type: "text", inputmode: "decimal", id: idOf(field), "data-key": keyOf(field), autocomplete: "off",
+      "aria-describedby": `${idOf(field)}-error`,
     });
     const commit = () => {
       if (input.value === input.shown) return;
       const value = typedNumber(input.value);
       if (Number.isNaN(value)) return refuseText(row);
       input.shown = input.value;
+      edited = row;
       change(changesOf(row.field, value));
     };
     input.addEventListener("change", commit);
@@ -44,8 +46,8 @@ function sizesOf(at, acts) {
   }
 
   function rangeInput(field, row) {
-    const input = make("input", { type: "range", "data-key": `${field.path}/range`, "aria-label": field.name });
-    input.addEventListener("input", () => slide(changesOf(row.field, Number(input.value))));
+    const input = make("input", { type: "range", "data-key": `${keyOf(field)}/range`, "aria-label": field.name });
+    input.addEventListener("input", () => slide(changesOf((edited = row).field, Number(input.value))));
     return input;
   }
 
@@ -69,10 +71,10 @@ function sizesOf(at, acts) {
   }
 
   function choiceInput(field, row) {
-    const select = make("select", { id: idOf(field.path), "data-key": field.path }, field.choices.map((choice, k) =>
-      make("option", { value: k, text: choice.name })));
+    const select = make("select", { id: idOf(field), "data-key": keyOf(field) }, field.choices.map((choice) =>
+      make("option", { value: choice.value, text: choice.name })));
     select.addEventListener("change", () => {
-      const chosen = row.field.choices[Number(select.value)];
+      const chosen = row.field.choices[select.selectedIndex];
       change(chosen.changes || { [field.path]: chosen.value });
     });
     return select;
@@ -80,8 +82,8 @@ function sizesOf(at, acts) {
 
   function rowOf(field) {
     const row = { field };
-    const error = make("p", { class: "error", id: `${idOf(field.path)}-error`, role: "alert", hidden: true });
-    const label = make("label", { for: idOf(field.path), text: field.name });
+    const error = make("p", { class: "error", id: `${idOf(field)}-error`, role: "alert", hidden: true });
+    const label = make("label", { for: idOf(field), text: field.name });
     if (field.kind === "choice") {
       row.input = choiceInput(field, row);
       row.element = make("div", { class: "size choosing" }, label, row.input, error);
@@ -122,7 +124,7 @@ function sizesOf(at, acts) {
 
   function setRow(row, field) {
     row.field = field;
-    if (field.kind === "choice") row.input.value = field.choices.findIndex((choice) => choice.value === field.value);
+    if (field.kind === "choice") row.input.selectedIndex = field.choices.findIndex((choice) => choice.value === field.value);
     else setNumber(row, field);
   }
 
@@ -131,15 +133,29 @@ function sizesOf(at, acts) {
   const shapeOf = (fields) => JSON.stringify(fields.map((field) =>
     [field.path, field.kind, field.name, field.unit, field.adopted === null, field.choices?.map((choice) => choice.name)]));
 
+  function addRow(field) {
+    rows.set(keyOf(field), rowOf(field));
+    return rows.get(keyOf(field)).element;
+  }
+
+  // The fields of the chosen phase, before the buttons that change the phases.
+  function showFields(fields, editor) {
+    const paths = shapeOf(fields);
+    if (paths !== ofPhase || fields.some(({ key }) => !editor.contains(rows.get(key)?.element))) {
+      for (const [key, { element, field }] of rows) if (field.key) element.remove(rows.delete(key));
+      editor.lastElementChild?.before(...fields.map(addRow));
+    }
+    ofPhase = paths;
+    for (const field of fields) setRow(rows.get(field.key), field);
+  }
+
   function rebuild(fields) {
     rows.clear();
     const isFirst = (group) => fields.some((field) => field.group === group && FIRST.test(field.path));
     const every = [...new Set(fields.map((field) => field.group))], groups = [...every.filter(isFirst), ...every.filter((group) => !isFirst(group))];
     const sections = groups.map((group) => {
       const inside = fields.filter((field) => field.group === group).map((field) => {
-        if (field.kind === "phases") return phases.element;
-        rows.set(field.path, rowOf(field));
-        return rows.get(field.path).element;
+        return field.kind === "phases" ? phases.element : addRow(field);
       });
       return fields.every((field) => field.group !== group || SELDOM.test(field.path)) ? make("details", {}, make("summary", { text: group }), inside)
         : make("section", {}, make("h2", { text: group }), inside);
@@ -157,14 +173,14 @@ function sizesOf(at, acts) {
     shape = shapeOf(fields);
     for (const field of fields) {
       if (field.kind === "phases") phases.show(field);
-      else setRow(rows.get(field.path), field);
+      else setRow(rows.get(keyOf(field)), field);
     }
   }
 
   // All fields say again what is drawn.
   function restore() {
     if (errorAt) forgive(errorAt);
-    phases.reset();
+    phases.follow({});
     for (const row of rows.values()) {
       row.input.shown = row.input.value;
       setRow(row, row.field);
@@ -173,9 +189,9 @@ function sizesOf(at, acts) {
 
   // While a size is moved its numbers follow at once.
   function follow(changes) {
-    for (const [path, value] of Object.entries(changes)) {
-      const row = rows.get(path);
-      if (row && row.field.kind !== "choice") setNumber(row, { ...row.field, value });
+    for (const row of rows.values()) {
+      const { path, kind } = row.field;
+      if (path in changes && kind !== "choice") setNumber(row, { ...row.field, value: changes[path] });
     }
     phases.follow(changes);
   }
@@ -207,14 +223,19 @@ function sizesOf(at, acts) {
     for (const input of row.element.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
   }
 
+  // Of a lift there may be two: that of all phases, and that of the chosen one.
+  function rowOn(path) {
+    const found = [...rows.values()].filter(({ field }) => field.path === path);
+    return found.includes(edited) ? edited : found[0];
+  }
+
   // Whether there is a field for the error; the value stays as it was typed.  It is told there if that was changed, else
   // beside what was: a value that is refused lives in its own field alone.
   function showError({ field, message, remedy }, changed) {
-    const rowAt = (path) => rows.get(path) || (path?.startsWith("motion.phases") && phases.isThere() ? phases.row : undefined);
-    const own = phases.isEdited(field) ? phases.row : rowAt(field), moved = changed.map(rowAt).filter(Boolean);
-    const there = moved.includes(own) ? own : moved[0] || own;
+    const rowAt = (path) => rowOn(path) || (path?.startsWith("motion.phases") && phases.element.isConnected ? phases.row : undefined);
+    const own = rowAt(field), moved = changed.map(rowAt).filter(Boolean), there = own !== phases.row && moved.includes(own) ? own : moved[0] || own;
     // A knob of the drawing has moved a border of the bar.
-    if (there === phases.row && !there.input?.isConnected) there.input = phases.borderAt(changed[0]);
+    if (there === phases.row) there.input = phases.borderAt(changed[0]);
     if (there) refuse(there, [message, remedy].filter(Boolean).join("; "));
     return Boolean(own);
   }
@@ -228,5 +249,5 @@ function sizesOf(at, acts) {
     return `${name} ${number ? `${number} ${unit}`.trim() : chosen ?? word("found")}`;
   }
 
-  return { show, follow, showError, restore, said, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field) };
+  return { show, follow, showError, restore, said, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field).filter((field) => !field.key) };
 }

@@ -14,8 +14,8 @@
     upto: config.exercise?.upto || null, inert: false, hidden: [],
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
-    // In a tour: what the person was at before.
-    own: null,
+    // In a mode that shows other tasks: what the person was at before.
+    own: null, language: config.language,
   });
   const now = state.get, stats = [];
   const wire = openWire(config, (text) => page.notice(word("starting").replace("{state}", text)));
@@ -30,7 +30,7 @@
     paneOf("-beside", (main) => page.beside(main), { usual: [390, 520], letters: 40 }),
   ];
   const page = {
-    config, words, at, word, state, wire, stats, phone, panes, shown: {}, last: {}, hand: null, pinned: null, failed: null,
+    config, words, at, word, state, wire, stats, phone, panes, shown: {}, last: {}, hand: null, guess: null, pinned: null, failed: null,
     queue: queueOf(wire.ask, stats), address: addressOf(config), wide: matchMedia("(min-width: 70rem)"),
     large: panes[0].gallery, small: { strip: galleryOf(), board: galleryOf() }, stage: panes[0].stage,
     decimal: () => page.last.mechanism?.decimal || ".",
@@ -54,13 +54,14 @@
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
+  const moved = (changes, byKey = false) => Object.keys(changes)[0]?.startsWith("guess") ? page.guess.change(changes) : page.changeAny(changes, byKey);
   for (const pane of panes) {
     // A hand knows nothing of what stands above its view.
-    const drag = ({ handle, to: [x, y], ...more }) => page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
+    const drag = ({ handle, to: [x, y], ...more }) => handle === "guess" ? page.guess.drag([x, y]) : page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
     pane.hands = handsOf(pane.at, pane.stage, {
-      grab: page.grab, drag, drop: page.drop, key: (changes) => page.changeAny(changes, true), word,
+      grab: ({ id }) => id === "guess" || page.grab(), drag, drop: (cancelled, id) => id === "guess" || page.drop(cancelled), key: (changes) => moved(changes, true), word,
       written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
-      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), page.changeAny),
+      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), moved),
     });
   }
   page.heldHands = () => panes.map(({ hands }) => hands).find((hands) => hands.held());
@@ -170,7 +171,10 @@
     page.still();
     studioModes[now().mode]?.leave(studio);
     studio.panel.card(null);
-    state.set({ mode: name });
+    // What the person was at before is given back.
+    const { task, name: called, view, step, part, phi, own } = now(), mine = own || { task, name: called, view, step, part, phi };
+    state.set({ mode: name, own: name === "predict" || name === "tour" ? mine : null });
+    if (task !== mine.task) wantWhole(mine);
     showModes();
     studioModes[name]?.enter(studio);
   }
@@ -191,6 +195,10 @@
         at("panel").scrollTop = 0;
       },
     },
+    setGuess(guess) {
+      page.guess = guess;
+      page.showHands();
+    },
     // Nothing is asked, and nothing waits.
     quiet: () => !page.queue.busy(),
   };
@@ -205,10 +213,16 @@
   });
   page.wantWhole = wantWhole;
 
+  // What the address says; the page in another language stands at a place of its own, where there is one.
+  async function read() {
+    const { language = config.language, ...found } = (await page.address.read(location.hash)) || {};
+    if (language !== config.language && config.languages?.includes(language)) location.replace(`/${language}${location.hash}`);
+    return found;
+  }
+
   async function fromAddress() {
-    const found = await page.address.read(location.hash);
-    if (!found) return;
-    const { mode, ...rest } = found;
+    const { mode, ...rest } = await read();
+    if (!rest.task) return;
     if (await wantWhole(rest)) setMode(mode);
   }
 
@@ -226,7 +240,7 @@
   }
 
   if (at("builtin")) at("builtin").value = config.name;
-  const { mode, ...found } = (await page.address.read(location.hash)) || {};
+  const { mode, ...found } = await read();
   if (config.first && !found.task) {
     const asked = { views: config.first.views.map((view) => ({ ...view, pane: Number(view.plain), px_per_mm: 1 })), told: true, values: true, form: true, warnings: true, mechanism: true };
     page.take({ ok: true, views: [], ...config.first }, { request: asked, hand: null, aim: {} });

@@ -126,8 +126,6 @@ studioModes.tour = (() => {
 
   async function enter(page) {
     studio = page;
-    const { task, name, view, step, part, phi } = studio.state.get();
-    studio.state.set({ own: { task, name, view, step, part, phi } });
     if (!watching) studio.state.subscribe(changed);
     watching = true;
     if (!tours) {
@@ -141,10 +139,6 @@ studioModes.tour = (() => {
   function leave() {
     clearTimeout(timer);
     tour = null;
-    // What the person was at before is given back.
-    const { task, own: { name, ...more } } = studio.state.get();
-    studio.state.set({ own: null });
-    if (task !== more.task) studio.load(more.task, name, more);
   }
 
   return { enter, leave };

@@ -1,4 +1,4 @@
-"""How great the pressure angle becomes, and where: a ray from the cam centre, and a place on the curve of v."""
+"""Places on curves: how great the pressure angle becomes and where, and where the cam is sharpest."""
 
 import cmath
 import math
@@ -8,10 +8,13 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.views import ANGLE, COMBINED, VELOCITY
+from graphcam.constructions.views import ANGLE, COMBINED, PROFILE, VELOCITY
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
-from graphcam.studio.guesses import PENCIL_LINE, JudgedGuess, Prediction, shown_steps, steps_in
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
+from graphcam.solving.solution import Solution
+from graphcam.studio.guesses import PENCIL_LINE, JudgedGuess, Prediction, nearest_on_polyline, shown_steps, steps_in
 from graphcam.words import Caption, say, sequence
 
 MAX_RAY_ANGLE = math.radians(75)
@@ -21,6 +24,11 @@ RAY_LENGTH_SHARE = 0.95
 CURVE_POINTS = 76
 ALPHA_NAME = say("pressure angle α")
 PHI_NAME = say("cam angle φ")
+TURN_PLACES = 721
+"""The number of places of the turn: every half degree."""
+SAME_SHARPNESS = 0.005
+"""What is less sharp by no more than this part is as sharp: an arc of a dwell is so all along."""
+RHO_NAME = say("radius of curvature ρ")
 
 
 def angle_foretold(chain: Chain) -> Prediction:
@@ -149,3 +157,78 @@ def _where_steep(chain: Chain, x: float, curve: Points, rising: NDArray[np.bool_
             "{apart:.1f}° after that of v."
         )
     return sequence([told, reason.with_values(apart=abs(apart)) if abs(apart) >= 1 else reason], " ")
+
+
+# --- where the cam is sharpest ----------------------------------------------------------------------------------------
+
+
+def sharpest_foretold(solution: Solution) -> Prediction:
+    """Predict where the radius of curvature is least: on the pitch curve, under a flat face on the profile.
+
+    >>> import graphcam as gc
+    >>> asked = sharpest_foretold(gc.solve(gc.builtin_task()))
+    >>> asked.view, asked.judge(asked.start).machine > 10
+    ('profile', True)
+    """
+    chain, cam = solution.chain, solution.cam
+    phi = np.linspace(0.0, FULL_TURN, TURN_PLACES)
+    xy, mu = cam.pitch_curve(phi), chain.inversion.readings["radius"].per_mm
+    way = (xy[:, 0] + 1j * xy[:, 1]) / mu
+    least, at = cam.extremes().min_convex_radius
+    radii = _convex_radii(cam.pitch_curvature(phi), cam.kinematics.takes_roller)
+    sharp = np.flatnonzero(radii <= least + SAME_SHARPNESS * abs(least))
+    places = way[sharp] if sharp.size else way[[np.argmin(np.abs(phi - at))]]
+
+    def judged(guess: complex) -> JudgedGuess:
+        answer = complex(places[np.argmin(np.abs(places - guess))])
+        here = int(np.argmin(np.abs(way - nearest_on_polyline(way, guess))))
+        paper, difference = abs(guess - answer), float(radii[here]) - least
+        said = _by_radius(paper, float(radii[here]), difference)
+        return JudgedGuess(
+            answer, paper, difference, "mm", RHO_NAME, said, _explanation(solution, float(phi[here]), least, at)
+        )
+
+    steps = steps_in(chain, "inversion", PROFILE.name)
+    question = (
+        say("Where on the convex parts of the pitch curve is the cam sharpest?")
+        if cam.kinematics.takes_roller
+        else say("Where on the profile is the cam sharpest?")
+    )
+    # Under a flat face the radius is read off the region's own drawing.
+    before = [] if cam.kinematics.takes_roller else shown_steps(chain, "minimum_radius")
+    construct = [*before, *shown_steps(chain, "curvature")]
+    return Prediction(
+        question, PROFILE.name, steps, construct, way, complex(way[np.argmax(cam.motion(phi)[0])]), judged
+    )
+
+
+def _convex_radii(curvature: Floats, hollows: bool) -> Floats:
+    """Radii of curvature; infinite in a hollow, where no roller is too large for the outside."""
+    with np.errstate(divide="ignore"):
+        return np.where(curvature > 0, 1 / curvature, math.inf) if hollows else 1 / curvature
+
+
+def _by_radius(paper: float, radius: float, difference: float) -> Caption:
+    if paper <= PENCIL_LINE:
+        return say("Your point is the sharpest: {paper:.1f} mm off on paper.", paper=paper)
+    apart = say("Your point is {paper:.1f} mm from the sharpest one on paper.", paper=paper)
+    if math.isinf(radius):
+        return sequence([apart, say("There the curve is concave.")], " ")
+    there = say("There ρ is {radius:.1f} mm, {difference:.1f} mm more.", radius=radius, difference=max(difference, 0.0))
+    return sequence([apart, there], " ")
+
+
+def _explanation(solution: Solution, phi: float, least: float, at: float) -> Caption:
+    """The accelerations at the guess and at the sharpest place."""
+    here, there = (float(solution.cam.motion(np.array(angle))[2]) for angle in (phi, at))
+    said = say(
+        "A negative acceleration, a < 0, bends the curve more sharply; a positive one makes it flatter, or "
+        "concave. At your point a = {here:.3g} {unit}, at φ = {phi:.1f}° it is {there:.3g} {unit}, and ρ = "
+        "{least:.2f} mm."
+    )
+    unit = solution.chain.integration.readings["a"].unit
+    said = said.with_values(here=here, there=there, unit=unit, phi=math.degrees(at), least=least)
+    if math.isclose(here, there, rel_tol=SAME_SHARPNESS):
+        alike = say("Where a is the same, the point nearer to the cam centre is sharper.")
+        return sequence([said, alike], " ")
+    return said
