@@ -62,7 +62,9 @@ evenly, and what is so much lighter an eraser has left."""
 STEEPEST_COSINE = 0.2
 """The cosine of the steepest slope for which the distance across is computed."""
 MIN_RIVAL_STRENGTH = 0.45
-"""The minimum strength of a second curve that was meant, as a share of the curve's strong places."""
+"""The minimum strength of a second curve that was meant, as a share of the curve's strong places,"""
+MIN_CREST_SHARE = 0.6
+"""and as a share of the darkest line near by."""
 
 
 MIN_SEEN_SHARE = 0.90
@@ -333,10 +335,9 @@ def _rival(track: Track, grid: CurveGrid, evidence: Evidence, black: Flags, ink:
     rewards[np.abs(grid.offsets - grid.offsets[track.states][:, None]) < room[:, None]] = OUTSIDE_REWARD
     second = track_of(best_way(rewards, grid.wraps), grid, evidence, ink)
     apart = np.abs(grid.offsets[second.states] - grid.offsets[track.states]) > room
-    seen = (
-        seen_stations(second, evidence, ink, grid.wraps) & apart & (second.answers > MIN_RIVAL_STRENGTH * track.strong)
-    )
-    return RivalLine(second, seen)
+    # At the edge of a finger no way runs on a crest.
+    dark = second.answers > np.maximum(MIN_RIVAL_STRENGTH * track.strong, MIN_CREST_SHARE * second.best)
+    return RivalLine(second, seen_stations(second, evidence, ink, grid.wraps) & apart & dark)
 
 
 def _by_another_way(track: Track, rival: RivalLine, grid: CurveGrid) -> Flags:

@@ -26,7 +26,8 @@ MIN_RESIDUE_FACTOR = 2.0
 MIN_DENSITY = 0.02
 """The density of the faintest line."""
 MIN_COHERENCE = 0.6
-"""The minimum answer in the line's own direction, as a share of the best in any: a crossing or digit has less."""
+"""The minimum answer in the line's own direction, as a share of the best in any near by: a crossing or digit has less.
+"""
 COHERENCE_OFFSETS = np.array([-0.4, -0.2, 0.0, 0.2, 0.4])
 """Offsets to both sides at which the best direction is looked for [mm]."""
 MIN_RUN_LENGTH = 5.0
@@ -54,7 +55,8 @@ class Track:
     path : places on the page, exact to the grid's step
     normal : unit normals, to the side of the greater states
     answers : how much more ink lies on it than beside it;  strong : that of its strong places
-    best : how much more ink lies on a line in any direction near by;  coherence : share of it that the answers are
+    best : how much more ink lies on a line in any direction near by;  coherence : share of it that lies on one near by
+        in the way's own direction
     hidden : by black print, or outside the room;  beside : light print
     lengths : of the path, mm
     """
@@ -79,6 +81,8 @@ def track_of(way: BestWay, grid: CurveGrid, evidence: Evidence, ink: Ink) -> Tra
     nearby = np.clip(way.states[:, None] + around, 0, states - 1)
     answers = evidence.answers[station, way.states, way.slopes + grid.steepest]
     best = evidence.best[station[:, None], nearby].max(1)
+    # Where any place on a dark stroke is reward enough the way runs beside its crest: that is no matter of direction.
+    own = evidence.answers[station[:, None], nearby, way.slopes[:, None] + grid.steepest].max(1)
     black = hidden_places(ink.black, grid)
     hidden = black[station[:, None], nearby].any(1) | ~grid.inside[station, way.states]
     smooth = gaussian_filter1d(way.states.astype(float), STEP_SMOOTHING, mode="wrap" if grid.wraps else "nearest")
@@ -95,7 +99,7 @@ def track_of(way: BestWay, grid: CurveGrid, evidence: Evidence, ink: Ink) -> Tra
         answers=answers,
         strong=float(np.percentile(open_answers, STRENGTH_PERCENTILE)) if open_answers.size else 0.0,
         best=best,
-        coherence=answers / np.maximum(best, 1e-6),
+        coherence=own / np.maximum(best, 1e-6),
         hidden=hidden,
         beside=ink.beside_print(path),
         lengths=np.abs(ahead),

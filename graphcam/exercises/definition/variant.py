@@ -8,6 +8,7 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from graphcam.constructions.axes import sense_caption
@@ -91,7 +92,7 @@ class Variant:
     draw: int
     parameters: Mapping[str, Value]
 
-    @property
+    @cached_property
     def task(self) -> Task:
         """The task with these parameters."""
         return fill_in(self.exercise, self.parameters)

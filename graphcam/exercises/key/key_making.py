@@ -14,7 +14,14 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
-from graphcam.exercises.key.answer_scatter import answers_of, bulges_of, deviations, distances, expected, torn
+from graphcam.exercises.key.answer_scatter import (
+    answers_of,
+    bulges_of,
+    deviations,
+    distances,
+    expected,
+    torn,
+)
 from graphcam.exercises.key.coinciding_answers import (
     MAX_COINCIDENCE_SHARE,
     by_one_number,
@@ -31,9 +38,9 @@ from graphcam.exercises.key.mistake_separation import (
     hypotheses,
     inseparable_pairs,
     out_of_sight,
-    passing,
     perfect_hands,
     plainly_alike,
+    untold,
 )
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.refused_draws import RefusalReason, Refusals, RefusedDraw, of_pairs
@@ -53,22 +60,27 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
     """The answer key of a variant, or why it has none: its answers cannot tell every mistake from every other.
 
     Named together are those that the exercise lets be alike.  A variant has no key either whose diagrams find no room
-    on the worksheet, or in which one number handed in for all answers earns more than half of the marks.  What is
-    quickly found out comes first: of several draws most are turned away.
+    on the worksheet, or in which one number handed in for all answers earns more than half of the marks.
 
     Raises
     ------
     DesignError : a careful hand comes to nothing with it
     """
-    found = _drawn_or_refused(variant)
-    if isinstance(found, RefusedDraw):
-        return found
-    exercise, drawn = variant.exercise, found
+    found = drawn_or_refused(variant)
+    return found if isinstance(found, RefusedDraw) else key_of_drawn(variant, found)
+
+
+def key_of_drawn(variant: Variant, drawn: PerfectHands) -> AnswerKey | RefusedDraw:
+    """The answer key of a variant that perfect hands have drawn, or why it has none.
+
+    What is quickly found out comes first, here and in :func:`drawn_or_refused`: of several draws most are turned away.
+
+    Raises
+    ------
+    DesignError : a careful hand comes to nothing with it
+    """
+    exercise, radius = variant.exercise, variant.task.cam.prime_radius
     chains = {CAREFUL_WORK: drawn.right, **drawn.wrong}
-    wrong = hypotheses(exercise, drawn)
-    not_told = inseparable_pairs(exercise, wrong)
-    if pairs := forbidden(exercise, not_told):
-        return RefusedDraw(of_pairs(pairs), drawings=chains)
     hands = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HAND_COUNT)))
     if torn(exercise, drawn.right, hands):
         return RefusedDraw((RefusalReason("sides"),))
@@ -77,27 +89,30 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
     off = deviations(exercise, keys, far)
     bound = float(np.quantile(off.max(axis=1), 1 - LOSS_RATE_MARGIN * exercise.careful))
     tolerances = [bound * float(np.max(key.scatter)) for key in keys]
-    if pairs := passing(exercise, keys, wrong, bound):
-        certain = (pair for pair in pairs if out_of_sight(exercise, keys, wrong[pair[0]], bound))
-        return RefusedDraw(of_pairs(pairs), of_pairs(certain), chains)
     if by_one_number(exercise, keys, tolerances) > MAX_COINCIDENCE_SHARE:
         return RefusedDraw((RefusalReason("number"),))
-    # Not by their standard deviation, which rounding keeps from nought.
-    by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
-    if names := guessed_radii(exercise, keys, tolerances, variant.task.cam.prime_radius):
+    if names := guessed_radii(exercise, keys, tolerances, radius):
         return _copied(names)
+    wrong: dict[str, tuple[Expected, ...]] = {}
+    for name, values in hypotheses(exercise, drawn):
+        wrong[name] = values
+        if pairs := untold(exercise, keys, wrong, name, bound):
+            certain = (pair for pair in pairs if CAREFUL_WORK in pair and out_of_sight(exercise, keys, values, bound))
+            return RefusedDraw(of_pairs(pairs), of_pairs(certain), chains)
     if names := too_many_kept(exercise, drawn, keys, bound):
         reasons = tuple(RefusalReason("unlisted", name, CAREFUL_WORK) for name in names)
         wrongly = {name: misconception(name).change(drawn.right) for name in names}
         return RefusedDraw(reasons, reasons, chains | wrongly)
+    # Not by their standard deviation, which rounding keeps from nought.
+    by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
     rows = zip(exercise.answers, keys, tolerances, drawn.lengths, by_hand, strict=True)
     return AnswerKey(
         *(exercise.name, exercise.version, variant.student, variant.draw, variant.parameters),
         bound=bound,
         careful=float(np.mean(off.max(axis=1) > bound)),
         keys={asked.name: Key(key, most, most / length, is_drawn) for asked, key, most, length, is_drawn in rows},
-        hypotheses={name: Hypothesis.of(values) for name, values in wrong.items()},
-        alike=not_told,
+        hypotheses={name: Hypothesis.of(wrong[name]) for name in exercise.misconceptions},
+        alike=inseparable_pairs(exercise, {name: wrong[name] for name in exercise.misconceptions}),
         dependences=dependences(exercise, drawn.right, keys, bound, hands, drawn.lengths),
     )
 
@@ -107,7 +122,7 @@ def _copied(names: Sequence[str]) -> RefusedDraw:
     return RefusedDraw(tuple(RefusalReason("copied", name, "cam.prime_radius") for name in names), drawings={})
 
 
-def _drawn_or_refused(variant: Variant) -> PerfectHands | RefusedDraw:
+def drawn_or_refused(variant: Variant) -> PerfectHands | RefusedDraw:
     """What perfect hands draw, where nothing in it is in the way; this is quickly found out."""
     exercise = variant.exercise
     try:

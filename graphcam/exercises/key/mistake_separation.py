@@ -1,6 +1,6 @@
 """Whether the answers can tell every catalogued mistake from careful work and from every other mistake."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -69,20 +69,46 @@ def perfect_hands(exercise: Exercise, right: Chain) -> PerfectHands:
     return PerfectHands(right, wrong, answers, wrong_answers, lengths)
 
 
-def hypotheses(exercise: Exercise, drawn: PerfectHands) -> dict[str, tuple[Expected, ...]]:
-    """What a student with each of the exercise's mistakes answers, and how it scatters.
+def hypotheses(exercise: Exercise, drawn: PerfectHands) -> Iterator[tuple[str, tuple[Expected, ...]]]:
+    """What a student with each of the exercise's mistakes answers, and how it scatters, by the mistake's name.
+
+    Those whose numbers lie near right ones or near another mistake's come first: they may be taken for these.
 
     Raises
     ------
     DesignError : the drawing with a mistake comes to nothing
     """
     careful = drawn.right.by(exercise.hand.pencil(HAND_COUNT))
-    found: dict[str, tuple[Expected, ...]] = {}
-    for name, answers in drawn.wrong_answers.items():
+    for name in _nearest_first(exercise, drawn):
+        answers = drawn.wrong_answers[name]
         off = distances(exercise, answers, answers_of(exercise, misconception(name).change(careful)))
         bent = bulges_of(exercise, drawn.wrong[name])
-        found[name] = tuple(expected(exercise, answers, off, drawn.lengths, bent))
-    return found
+        yield name, tuple(expected(exercise, answers, off, drawn.lengths, bent))
+
+
+def _nearest_first(exercise: Exercise, drawn: PerfectHands) -> list[str]:
+    """The mistakes in the order of how near the numbers of the nearest other work are, by rounding and calculating."""
+    numbers = [place for place, asked in enumerate(exercise.answers) if asked.kind == "number"]
+    rows = _rounded(exercise, drawn)
+    value = np.array([[rows[name][place].value for place in numbers] for name in rows], dtype=np.float64)
+    scatter = np.array([[rows[name][place].scatter for place in numbers] for name in rows], dtype=np.float64)
+    apart = (np.abs(value[:, None] - value) / (scatter[:, None] + scatter)).max(axis=-1, initial=0.0)
+    np.fill_diagonal(apart, np.inf)
+    nearest = dict(zip(rows, apart.min(axis=1).tolist(), strict=True))
+    return sorted(drawn.wrong, key=lambda name: nearest[name])
+
+
+def untold(
+    exercise: Exercise,
+    keys: Sequence[Expected],
+    wrong: Mapping[str, Sequence[Expected]],
+    name: str,
+    bound: float,
+) -> list[tuple[str, str]]:
+    """The pairs of one of the mistakes with careful work, and with the others, that forbid to issue the variant."""
+    others = [(other, name) for other in wrong if other != name]
+    alike = [pair for pair in others if not _are_separated(exercise, wrong[pair[0]], wrong[name])]
+    return [*passing(exercise, keys, {name: wrong[name]}, bound), *forbidden(exercise, alike)]
 
 
 def inseparable_pairs(exercise: Exercise, wrong: Mapping[str, Sequence[Expected]]) -> tuple[tuple[str, str], ...]:
@@ -97,7 +123,7 @@ def forbidden(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> list[tupl
 
 
 def passing(
-    exercise: Exercise, keys: list[Expected], wrong: dict[str, tuple[Expected, ...]], bound: float
+    exercise: Exercise, keys: Sequence[Expected], wrong: Mapping[str, Sequence[Expected]], bound: float
 ) -> list[tuple[str, str]]:
     """The mistakes that pass as careful work, or that no answer names, paired with that."""
     return [(name, CAREFUL_WORK) for name, values in wrong.items() if not _is_noticed(exercise, keys, values, bound)]
@@ -146,12 +172,16 @@ def endless(drawn: PerfectHands) -> list[str]:
 
 def plainly_alike(exercise: Exercise, drawn: PerfectHands) -> tuple[tuple[str, str], ...]:
     """The pairs of mistakes, work without one among them, that rounding alone does not tell apart."""
+    return inseparable_pairs(exercise, _rounded(exercise, drawn))
+
+
+def _rounded(exercise: Exercise, drawn: PerfectHands) -> dict[str, list[Expected]]:
+    """What each of the perfect hands answers, as it scatters by rounding, reading and calculating alone."""
     rows = {CAREFUL_WORK: drawn.answers, **drawn.wrong_answers}
-    values = {
+    return {
         name: expected(exercise, row, [np.zeros((1, *value.shape)) for value in row], drawn.lengths)
         for name, row in rows.items()
     }
-    return inseparable_pairs(exercise, values)
 
 
 def have_same_answers(drawn: PerfectHands, a: str, b: str) -> bool:

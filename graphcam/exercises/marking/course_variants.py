@@ -7,10 +7,12 @@ from dataclasses import replace
 from functools import partial
 
 from graphcam.exercises.definition.exercise import Answers, Exercise
-from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.coinciding_answers import MAX_COINCIDENCE_SHARE
-from graphcam.exercises.key.key_making import issue
+from graphcam.exercises.key.key_making import MAX_DRAWS, drawn_or_refused, issue, key_of_drawn
+from graphcam.exercises.key.mistake_separation import PerfectHands
+from graphcam.exercises.key.refused_draws import RefusedDraw
 from graphcam.exercises.marking.marking import mark
 from graphcam.workers import ordered_results
 
@@ -40,12 +42,39 @@ def course_variants(
     names = list(students)
     first = ordered_results(executor, partial(_first_variant, exercise, secret), names)
     for student, (variant, answer_key) in zip(names, first, strict=True):
-        for _ in range(MAX_REDRAWS):
-            if not any(too_near(exercise, answer_key, other) for other in before):
-                break
-            variant, answer_key = issue(exercise, student, secret, variant.draw + 1)
+        if any(too_near(exercise, answer_key, other) for other in before):
+            variant, answer_key = _drawn_again(exercise, student, secret, variant.draw, before)
         before.append(answer_key)
         yield variant, answer_key
+
+
+def _drawn_again(
+    exercise: Exercise, student: str, secret: bytes, draw: int, before: Iterable[AnswerKey]
+) -> tuple[Variant, AnswerKey]:
+    """The next variant that is not too near to those before it, or the last of :data:`MAX_REDRAWS`.
+
+    Whether its answers earn much by their keys is known before it has a key itself, and most are passed over by that.
+    Only those count that would be issued, which is found out where their number decides.
+    """
+    near, passed_over = 1, deque[tuple[Variant, PerfectHands]]()
+    last = draw + MAX_REDRAWS * MAX_DRAWS
+    while near < MAX_REDRAWS and draw < last:
+        draw += 1
+        variant = drawn(exercise, student, secret, draw)
+        hands = drawn_or_refused(variant)
+        if isinstance(hands, RefusedDraw):
+            continue
+        rows = zip(exercise.answers, hands.answers, strict=True)
+        right = Answers({asked.name: float(value) if asked.kind == "number" else value for asked, value in rows})
+        if any(earns_much(exercise, other, right) for other in before):
+            passed_over.append((variant, hands))
+        elif isinstance(answer_key := key_of_drawn(variant, hands), AnswerKey):
+            if not any(earns_much(exercise, answer_key, right_answers(other)) for other in before):
+                return variant, answer_key
+            near += 1
+        while passed_over and near + len(passed_over) >= MAX_REDRAWS:
+            near += isinstance(key_of_drawn(*passed_over.popleft()), AnswerKey)
+    return issue(exercise, student, secret, draw + 1)
 
 
 def _first_variant(exercise: Exercise, secret: bytes, student: str) -> tuple[Variant, AnswerKey]:
@@ -54,11 +83,13 @@ def _first_variant(exercise: Exercise, secret: bytes, student: str) -> tuple[Var
 
 def too_near(exercise: Exercise, one: AnswerKey, other: AnswerKey) -> bool:
     """Whether the right answers of one of two variants earn more than half of the marks in the other."""
-    return any(
-        (record := mark(exercise, replace(to, bound=LUCKY_TOLERANCES * to.bound), right_answers(copied))).total
-        > MAX_COINCIDENCE_SHARE * record.of
-        for to, copied in ((one, other), (other, one))
-    )
+    return any(earns_much(exercise, to, right_answers(copied)) for to, copied in ((one, other), (other, one)))
+
+
+def earns_much(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -> bool:
+    """Whether answers to another variant earn more than half of the marks, or would by a little luck."""
+    record = mark(exercise, replace(answer_key, bound=LUCKY_TOLERANCES * answer_key.bound), answers)
+    return record.total > MAX_COINCIDENCE_SHARE * record.of
 
 
 def right_answers(answer_key: AnswerKey) -> Answers:
