@@ -160,7 +160,9 @@ def letters_on(solution) -> list[str]:
     return [e.text for page in pages for group in page.groups for e in group.entities if isinstance(e, Text)]
 
 
-NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in TASKS]
+SHOWN = {"ru": tuple(TASKS)} | dict.fromkeys(UNREAD, ("coursework", "spring", "arcs"))
+"""The tasks of which all is looked at, by language: every one in a language that is read."""
+NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in SHOWN[spoken]]
 # What errors of the hand add is the same for every task.
 NOTES += [(spoken, name, "hand") for spoken in CATALOGS for name in ("spring", "arcs")]
 
@@ -186,10 +188,6 @@ class Looked(dict[tuple[str, str], tuple[str, ...]]):
     def get(self, text: tuple[str, str], default: Any = None) -> Any:
         self.asked.add(text)
         return super().get(text, default)
-
-
-SHOWN = {"ru": tuple(TASKS)} | dict.fromkeys(UNREAD, ("coursework", "spring", "arm", "flat", "arcs"))
-"""The tasks of which all is looked at, by language: all constructions, and every task in a language that is read."""
 
 
 @pytest.mark.slow

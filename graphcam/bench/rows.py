@@ -118,9 +118,10 @@ def faster_than(ours: float) -> Unit:
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured: parts, laws and hands, stations of laws and of cams, designs of sweeps into files, measured motions.
+    """How much is measured: parts, laws and hands, stations of laws and of cams, designs of sweeps into files.
 
     sizes : the numbers of parts or stations in which methods are timed, by the kind of method
+    motions : random ones that are measured with noise
     budget, least_runs : seconds, and runs at least, for every measurement of a time
     """
 

@@ -8,6 +8,6 @@ from walks import walk
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("seed", [1])
+@pytest.mark.parametrize("seed", range(1, 6))
 def test_form_picture_and_address_agree_at_every_rest(opened, seed):
     assert walk(opened(), seed, 12) == []
