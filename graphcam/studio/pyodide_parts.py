@@ -75,31 +75,10 @@ UNUSED_LIBRARIES = frozenset(
         *("tarfile.py", "argparse.py", "configparser.py", "zoneinfo", "uuid.py", "_pydatetime.py"),
         *("calendar.py", "_strptime.py", "mimetypes.py", "pprint.py", "cmd.py", "fileinput.py", "runpy.py", "code.py"),
         *("stringprep.py", "_markupbase.py", "filecmp.py", "symtable.py", "py_compile.py", "getopt.py"),
-        *(f"asyncio/{name}.py" for name in ("base_events", "base_subprocess", "locks", "mixins", "proactor_events")),
-        *(
-            f"asyncio/{name}.py"
-            for name in ("queues", "selector_events", "sslproto", "staggered", "streams", "subprocess")
-        ),
-        *(f"asyncio/{name}.py" for name in ("taskgroups", "transports", "trsock", "unix_events", "windows_events")),
         *("urllib/request.py", "urllib/robotparser.py", "logging/handlers.py", "logging/config.py", "html/parser.py"),
     }
 )
 """Of Python's own library what nothing here asks for."""
-OTHER_LIBRARIES: Mapping[str, bytes] = {
-    "asyncio/__init__.py": b"""\
-from .coroutines import *
-from .events import *
-from .events import BaseDefaultEventLoopPolicy as DefaultEventLoopPolicy
-from .exceptions import *
-from .futures import *
-from .runners import *
-from .tasks import *
-""",
-    "socket.py": b"AF_UNSPEC, AI_PASSIVE = 0, 1\n",
-    "subprocess.py": b"PIPE = -1\n",
-    "ipaddress.py": b"ip_address = None\n",
-}
-"""What stands in modules of it in place of what they have: a browser has an event loop of its own, and no sockets."""
 KEPT_CODECS = re.compile(
     r"encodings/(__init__|aliases|ascii|utf_\w+|latin_1|cp(437|866|125\d)|idna|punycode|raw_\w+)\.py"
 )
@@ -163,8 +142,7 @@ def library_archive(content: bytes) -> bytes:
         kept = [name for name in names if not name.startswith("encodings/") or KEPT_CODECS.fullmatch(name)]
         # What Pyodide says of its own functions is theirs when it starts.
         said = {name: name.endswith(".py") and not name.startswith("_pyodide/") for name in kept}
-        whole = {name: OTHER_LIBRARIES.get(name) or archive.read(name) for name in kept}
-        return stored_zip({name: (without_words if said[name] else bytes)(text) for name, text in whole.items()})
+        return stored_zip({name: (without_words if said[name] else bytes)(archive.read(name)) for name in kept})
 
 
 def lock_without_packages(content: bytes) -> bytes:

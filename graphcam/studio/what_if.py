@@ -186,7 +186,7 @@ def swept_fields(solution: AnySolution, tell: Tell) -> list[Field]:
     >>> [field["name"] for field in swept_fields(gc.solve(gc.builtin_task("flat")), str)][:2]
     ['Lift h', 'Prime radius r₀']
     """
-    fields = [
+    fields: list[Field] = [
         {**field, "value": field.get("adopted") if field["value"] is None else field["value"]}
         for field in form_of(solution, tell)
         if field.get("min", 0.0) < field.get("max", 0.0) and not field["path"].startswith(UNSWEPT_PATHS)

@@ -9,7 +9,8 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 import graphcam as gc
 from graphcam.studio.engine import answer
 from graphcam.studio.handle import changes_with
-from graphcam.studio.sizes_form import form_of, phases_without, with_dwell, with_step
+from graphcam.studio.phase_fields import phases_without, with_dwell, with_step
+from graphcam.studio.sizes_form import form_of
 from graphcam.studio.task_paths import changed_task, steps_of, value_at
 
 DRAWN_ELSEWHERE = "title", "part"

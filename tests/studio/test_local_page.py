@@ -13,8 +13,10 @@ from studio_pages import settled
 
 import graphcam as gc
 from graphcam.studio import server as of
+from graphcam.studio.address import StudioPlace, address_of
 from graphcam.studio.local_studio import local_studio, opened_address
 from graphcam.studio.server import StudioServer
+from graphcam.studio.task_text import built_in_tasks
 
 pytestmark = pytest.mark.slow
 
@@ -132,3 +134,15 @@ def test_another_page_gets_nothing_even_with_the_token(local, window, tmp_path):
     assert asked == []
     assert not server._ends
     assert not (tmp_path / "out").exists()
+
+
+def test_an_address_in_another_language_opens_the_page_in_it(local, window):
+    (server, _), (page, complaints) = local, window
+    place = StudioPlace(built_in_tasks()["arm"], "arm", view="profile", language="ru")
+    page.goto(f"{server.address}&{address_of(place, built_in_tasks()).removeprefix('#')}")
+    page.wait_for_url("**/ru#1.*")
+    settled(page)
+    assert page.evaluate("() => document.documentElement.lang") == "ru"
+    assert page.evaluate("() => [studio.state.get().view, studio.state.get().task.follower.arm]") == ["profile", 125]
+    assert page.evaluate("async () => (await addressOf(studio.config).read(location.hash)).language") == "ru"
+    assert complaints == []

@@ -122,6 +122,17 @@ def test_phases_are_chosen_changed_added_and_taken_away(opened):
     assert sum(phase["angle"] for phase in phases) == 360
 
 
+def test_a_phase_has_its_fields_once_also_in_another_form(opened):
+    """Of another follower, or while sizes are locked, the form is made anew about the bar of phases."""
+    page = opened()
+    page.locator("[data-key='phase/0']").click()
+    for kind in ("flat-faced", "translating"):
+        page.locator("[data-key='follower.kind']").select_option(kind)
+        settled(page)
+        assert page.locator("[data-key='phase-lift']").count() == 1
+        assert page.locator(".phase-editor [data-key='phase-law']").count() == 1
+
+
 def test_a_border_of_phases_is_drawn_to_whole_fives(opened):
     page = opened()
     box = page.locator(".phase-bar").bounding_box()

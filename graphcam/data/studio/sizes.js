@@ -142,7 +142,8 @@ function sizesOf(at, acts) {
   function showFields(fields, editor) {
     const paths = shapeOf(fields);
     if (paths !== ofPhase || fields.some(({ key }) => !editor.contains(rows.get(key)?.element))) {
-      for (const [key, { element, field }] of rows) if (field.key) element.remove(rows.delete(key));
+      for (const [key, { field }] of rows) if (field.key) rows.delete(key);
+      for (const old of editor.querySelectorAll(".size")) old.remove();
       editor.lastElementChild?.before(...fields.map(addRow));
     }
     ofPhase = paths;
