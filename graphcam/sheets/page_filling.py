@@ -382,6 +382,10 @@ def _pages_of(cut_views: CutViews, cut: tuple[int, ...], gap: float) -> list[Ope
 
 
 def _cost_of(cut_views: CutViews, cut: tuple[int, ...], pages: Sequence[OpenPage]) -> float:
-    parting = PARTING_COST * sum(cut_views.parted(stop) for stop in cut[1:-1])
+    return PARTING_COST * sum(cut_views.parted(stop) for stop in cut[1:-1]) + sum(empty_costs(pages))
+
+
+def empty_costs(pages: Sequence[OpenPage]) -> Iterator[float]:
+    """The costs of the largest empty rectangles of all pages."""
     last = len(pages) - 1
-    return parting + sum(_empty_cost(page.final_empty_share, last=k == last > 0) for k, page in enumerate(pages))
+    yield from (_empty_cost(page.final_empty_share, last=k == last > 0) for k, page in enumerate(pages))
