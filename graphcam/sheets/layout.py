@@ -169,6 +169,7 @@ def fewest_pages(sheet: Format, part: SheetPart) -> int:
 class PagesOfPart:
     """The pages of a part, translated, and what they would have room for.
 
+    >>> from graphcam.drafting.ink import View, say
     >>> from graphcam.drafting.marks import Line, Role
     >>> line = Line(np.array([0j, 100 + 50j]), Role.CURVE)
     >>> step = Step(say("A line"), (), View("line", say("Line"), "x", "y"), (line,), why=say("To see it."))
