@@ -10,7 +10,7 @@ import sys
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import pytest
 import typer
@@ -64,6 +64,9 @@ def asked(monkeypatch):
         return Solution(task)
 
     solving.solve, report.check_choices = solve, lambda solution, upto, dxf, working_drawing: None
+    documents = ModuleType("graphcam.report.documents")
+    documents.contents_of = lambda solution, per_construction: SimpleNamespace(solution=solution)
+    monkeypatch.setitem(sys.modules, documents.__name__, documents)
     report.written_files = lambda folder: sorted(path.name for path in folder.iterdir())
     for module in (solving, report):
         monkeypatch.setitem(sys.modules, module.__name__, module)

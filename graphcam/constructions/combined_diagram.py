@@ -91,12 +91,13 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     """The step that lays the displacements off up the line of motion, and at each the velocity."""
     integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
     stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
-    s, own = ends.shown.imag, integrated.givens.combined
+    s, own = _displacements(integrated), integrated.givens.combined
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
     # How far it goes on down to the cam centre is found by drawing, and up in a scale of its own.
-    top, given = (float(np.max(each)) + AXIS_OVERHANG for each in (s, integrated.first("s")))
+    top = float(ends.shown.imag.max()) + AXIS_OVERHANG
+    given = top if own is None else float(np.max(integrated.first("s"))) + AXIS_OVERHANG
     lift = Line(UP * np.array([0.0, given]), Role.AXIS)
     marks = (
         *(lift, Line(UP * np.array([bottom, 0.0]), Role.AXIS)),
@@ -133,6 +134,12 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     return Step(title, (Part(base, (start,)), stationed), combined_view(integrated), marks, given=(lift,), why=why)
 
 
+def _displacements(integrated: Integrated) -> Floats:
+    """The displacements at the stations as they are laid off [mm of paper]."""
+    own, s = integrated.givens.combined, integrated.first("s")
+    return s if own is None else s * (integrated.readings["s"].per_mm / own.per_mm)
+
+
 def _laying_off(region: Construction[Any]) -> Caption:
     """Sentences on how all stations are laid off, and one of them in full."""
     integrated, ends, sigma = region.givens.integrated, region.acts["ends"], sense(region.givens.rotation)
@@ -160,7 +167,7 @@ def _laying_off(region: Construction[Any]) -> Caption:
         )
     ]
     if integrated.first("v")[k] > NEGLIGIBLE_SIZE:
-        worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=ends.shown[k].imag)
+        worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=_displacements(integrated)[k])
         said.append(worked.with_values(name=station_names(integrated.givens.stations)[k], set=setting(ends.first[[k]])))
     return sequence([*said, say("The longest measures {longest:.1f} mm.", longest=longest)], " ")
 

@@ -17,7 +17,7 @@ from graphcam.report.own_scales import with_own_scales
 from graphcam.report.sheet_contents import Contents, all_constructions, motion_contents, scaled_steps
 from graphcam.sheets.layout import compose_pages
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.page_filling import DIAGRAM_GAPS, TooLargeError
+from graphcam.sheets.page_filling import DIAGRAM_GAPS, SAME_COST, TooLargeError
 from graphcam.sheets.page_space import fits_on_sheet
 from graphcam.sheets.view_panels import panels
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
@@ -205,8 +205,12 @@ def contents_of(solution: AnySolution, *, per_construction: bool = False) -> Con
     check_profile_strokes(solution)
     contents = motion_contents(solution)
     with suppress(TooLargeError):
-        redrawn = with_own_scales(solution, contents.pages(per_construction=per_construction))
-        return contents if redrawn is solution else motion_contents(redrawn)
+        pages = contents.pages(per_construction=per_construction)
+        if (redrawn := with_own_scales(solution, pages)) is not solution:
+            larger = motion_contents(redrawn)
+            # Tables may have moved to where they leave a page half empty.
+            cost = sum(each.cost for each in larger.pages(per_construction=per_construction))
+            return larger if cost <= sum(each.cost for each in pages) + SAME_COST else contents
     return contents
 
 

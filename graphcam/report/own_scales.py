@@ -30,6 +30,7 @@ def with_own_scales(solution: Solution, parts: Sequence[PagesOfPart]) -> Solutio
     >>> task = gc.builtin_task("measured")
     >>> chain = contents_of(gc.solve(task)).solution.chain
     >>> chain.board.paper.held, round(float(chain["integration"].readings["s"].scale), 3)
+    ({'combined': 0.2}, 0.565)
     """
     chain = solution.chain
     paper, now = chain.board.paper, {PROFILE.name: chain.profile_scale.per_mm}

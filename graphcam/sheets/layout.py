@@ -25,7 +25,7 @@ from graphcam.sheets.labels import lettered_steps, shading_parted
 from graphcam.sheets.mark_entities import Drawn, Placement, expand
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
-from graphcam.sheets.page_filling import ONE_PAGE, fill, has_room, min_pages
+from graphcam.sheets.page_filling import ONE_PAGE, empty_costs, fill, has_room, min_pages
 from graphcam.sheets.page_space import FRAME_MARGIN, OpenPage
 from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, taken_boxes, title_box
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
@@ -169,6 +169,7 @@ def fewest_pages(sheet: Format, part: SheetPart) -> int:
 class PagesOfPart:
     """The pages of a part, translated, and what they would have room for.
 
+    >>> from graphcam.drafting.ink import View, say
     >>> from graphcam.drafting.marks import Line, Role
     >>> line = Line(np.array([0j, 100 + 50j]), Role.CURVE)
     >>> step = Step(say("A line"), (), View("line", say("Line"), "x", "y"), (line,), why=say("To see it."))
@@ -190,6 +191,11 @@ class PagesOfPart:
         DesignError : a view does not fit on a page of its own
         """
         return fill(self._sheet, self._views, self._ways)
+
+    @property
+    def cost(self) -> float:
+        """What the empty rectangles of the pages cost."""
+        return sum(empty_costs(self.filled))
 
     def have_room(self, times: Mapping[str, float], together: Collection[str] = ()) -> bool:
         """Whether as many pages have room with views so many times as large, by name, each of them on its own.

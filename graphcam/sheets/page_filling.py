@@ -187,8 +187,9 @@ def _preferred(sheet: Format, panels: Sequence[Panel], largest: Panel | None) ->
 class CutViews:
     """The views in the order of the work, and the pages with some of them in a row, each of which is found once."""
 
-    def __init__(self, sheet: Format, views: Sequence[Panel]) -> None:
-        self.sheet, self.views = sheet, views
+    def __init__(self, sheet: Format, views: Sequence[Panel], *, closely: bool = True) -> None:
+        # Views may stand in one another's corners, to come on one page all together.
+        self.sheet, self.views, self._close = sheet, views, closely and sheet.name in ONE_PAGE
         self.room = sheet.content.area - kept_area(sheet)
         self._areas = [panel.box.area for panel in views]
         self._found: dict[tuple[int, int], tuple[Way, OpenPage] | None] = {}
@@ -206,8 +207,7 @@ class CutViews:
         return self._found[start, end]
 
     def _closely(self, start: int, end: int) -> bool:
-        """Whether views may stand in one another's corners, to come on one page all together."""
-        return self.sheet.name in ONE_PAGE and end - start == len(self.views)
+        return self._close and end - start == len(self.views)
 
     def _most(self, start: int, end: int) -> float:
         """The area of boxes for which a page may have room."""
@@ -311,11 +311,11 @@ def has_room(
     pages: int,
     together: tuple[Collection[str], int],
 ) -> bool:
-    """Whether so many pages have room for all views and blocks; see :func:`fill`.
+    """Whether so many pages have room for all views and blocks, beside one another; see :func:`fill`.
 
     together : the names of views that stand on so many of them at most
     """
-    cut_views, (names, most) = CutViews(sheet, views), together
+    cut_views, (names, most) = CutViews(sheet, views, closely=False), together
     if sum(panel.box.area for panel in views) > pages * cut_views.room * MAX_BOXES_SHARE:
         return False
 
@@ -323,8 +323,13 @@ def has_room(
         """The number of pages of a cut with these views."""
         return sum(any(panel.view.name in names for panel in views[start:stop]) for start, stop in pairwise(cut))
 
-    cuts = [cut for cut in cut_views.cuts(pages) if spread(cut) <= most]
-    return any(_with_all_blocks(cut_views, cuts, _settings(ways_of_blocks, pages)))
+    cuts = cut_views.cuts(pages)
+    # The first is the best, so that it is likely to be taken.
+    return (
+        bool(cuts)
+        and spread(cuts[0]) <= most
+        and any(_with_all_blocks(cut_views, cuts, _settings(ways_of_blocks, pages)))
+    )
 
 
 def _settings(ways_of_blocks: Sequence[Sequence[Block]], pages: int) -> list[BlockSetting]:
@@ -377,6 +382,10 @@ def _pages_of(cut_views: CutViews, cut: tuple[int, ...], gap: float) -> list[Ope
 
 
 def _cost_of(cut_views: CutViews, cut: tuple[int, ...], pages: Sequence[OpenPage]) -> float:
-    parting = PARTING_COST * sum(cut_views.parted(stop) for stop in cut[1:-1])
+    return PARTING_COST * sum(cut_views.parted(stop) for stop in cut[1:-1]) + sum(empty_costs(pages))
+
+
+def empty_costs(pages: Sequence[OpenPage]) -> Iterator[float]:
+    """The costs of the largest empty rectangles of all pages."""
     last = len(pages) - 1
-    return parting + sum(_empty_cost(page.final_empty_share, last=k == last > 0) for k, page in enumerate(pages))
+    yield from (_empty_cost(page.final_empty_share, last=k == last > 0) for k, page in enumerate(pages))
