@@ -248,4 +248,4 @@ def test_a_drawing_of_which_nothing_is_found_is_an_answer(opened):
     page.evaluate("task => studio.load(task, 'arcs')", task)
     settled(page)
     assert page.evaluate("() => studio.shown.error") is None
-    assert "C2 cannot be read" in page.locator("#panel-step").inner_text()
+    assert "C₂ cannot be read" in page.locator("#panel-step").inner_text()
