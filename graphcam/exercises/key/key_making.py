@@ -38,9 +38,9 @@ from graphcam.exercises.key.mistake_separation import (
     hypotheses,
     inseparable_pairs,
     out_of_sight,
+    passing,
     perfect_hands,
     plainly_alike,
-    untold,
 )
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.refused_draws import RefusalReason, Refusals, RefusedDraw, of_pairs
@@ -96,7 +96,8 @@ def key_of_drawn(variant: Variant, drawn: PerfectHands) -> AnswerKey | RefusedDr
     wrong: dict[str, tuple[Expected, ...]] = {}
     for name, values in hypotheses(exercise, drawn):
         wrong[name] = values
-        if pairs := untold(exercise, keys, wrong, name, bound):
+        alike = forbidden(exercise, inseparable_pairs(exercise, wrong))
+        if pairs := [*passing(exercise, keys, {name: values}, bound), *alike]:
             certain = (pair for pair in pairs if CAREFUL_WORK in pair and out_of_sight(exercise, keys, values, bound))
             return RefusedDraw(of_pairs(pairs), of_pairs(certain), chains)
     if names := too_many_kept(exercise, drawn, keys, bound):
