@@ -79,15 +79,13 @@ def hypotheses(exercise: Exercise, drawn: PerfectHands) -> Iterator[tuple[str, t
     DesignError : the drawing with a mistake comes to nothing
     """
     careful = drawn.right.by(exercise.hand.pencil(HAND_COUNT))
-    rows = {
-        name: [
-            np.abs(value - right) / (np.abs(right) + 1)
-            for asked, value, right in zip(exercise.answers, answers, drawn.answers, strict=True)
-            if asked.kind == "number"
-        ]
-        for name, answers in drawn.wrong_answers.items()
-    }
-    for name in sorted(rows, key=lambda each: max(rows[each], default=0.0)):
+
+    def difference(name: str) -> float:
+        """The maximum difference of an answer from the right one, as a part of it."""
+        pairs = zip(drawn.wrong_answers[name], drawn.answers, strict=True)
+        return max(float(np.max(np.abs(wrong - right) / (np.abs(right) + 1))) for wrong, right in pairs)
+
+    for name in sorted(drawn.wrong, key=difference):
         answers = drawn.wrong_answers[name]
         off = distances(exercise, answers, answers_of(exercise, misconception(name).change(careful)))
         bent = bulges_of(exercise, drawn.wrong[name])

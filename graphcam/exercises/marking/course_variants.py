@@ -40,7 +40,7 @@ def course_variants(
     """
     before: deque[AnswerKey] = deque(maxlen=GROUP_SIZE)
     names = list(students)
-    first = ordered_results(executor, partial(_first_variant, exercise, secret), names)
+    first = ordered_results(executor, partial(issue, exercise, secret=secret), names)
     for student, (variant, answer_key) in zip(names, first, strict=True):
         if any(too_near(exercise, answer_key, other) for other in before):
             variant, answer_key = _drawn_again(exercise, student, secret, variant.draw, before)
@@ -75,10 +75,6 @@ def _drawn_again(
         while passed_over and near + len(passed_over) >= MAX_REDRAWS:
             near += isinstance(key_of_drawn(*passed_over.popleft()), AnswerKey)
     return issue(exercise, student, secret, draw + 1)
-
-
-def _first_variant(exercise: Exercise, secret: bytes, student: str) -> tuple[Variant, AnswerKey]:
-    return issue(exercise, student, secret)
 
 
 def too_near(exercise: Exercise, one: AnswerKey, other: AnswerKey) -> bool:
