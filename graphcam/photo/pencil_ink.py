@@ -232,7 +232,9 @@ def ink_of(
     sharp, blurred = density @ LUMA_WEIGHTS, soft @ LUMA_WEIGHTS
     del density
     ink = _printed_ink(page, [light, *(_light(part) for part in patches)], light.with_values(soft))
-    black = light.with_values(_black(page.black + _patch_boxes(page), light))
+    side = page.patch_side
+    squares = ((at.real, at.imag, at.real + side, at.imag + side) for at in page.patches)
+    black = light.with_values(_black((*page.black, *squares), light))
     distance = light.with_values(_distance(page.givens, light))
     if is_coloured(ink):
         neutral = soft @ weights_against(ink, soft)
@@ -277,11 +279,6 @@ def _black(boxes: Sequence[Edges], light: Raster) -> NDArray[np.uint8]:
         )
         mask[rows, columns] = 1
     return mask
-
-
-def _patch_boxes(page: PrintedPage) -> tuple[Edges, ...]:
-    side = page.patch_side
-    return tuple((at.real, at.imag, at.real + side, at.imag + side) for at in page.patches)
 
 
 def _distance(givens: Sequence[Points], light: Raster) -> NDArray[np.float32]:

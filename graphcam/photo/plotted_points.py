@@ -156,7 +156,9 @@ def _is_mark(ink: Ink, picture: Raster, mark: FoundMarks) -> bool:
     if bool(ink.beside_print(np.array(place))) and darkest < MIN_DENSITY + MIN_RESIDUE_FACTOR * ink.residue:
         return False
     if pattern.kind == "cross":
-        return _ends(picture, place, pattern.turn)
+        # Those of two crossing construction lines run on.
+        turns = (pattern.turn, pattern.turn + np.pi / 2)
+        return any(_stroke_ends(picture, place, np.exp(1j * turn)) for turn in turns)
     if pattern.kind == "dot":
         return _stands_out(picture.at(place + _circles(SURROUNDING_RADII)), core)
     radius = _round(picture.at(place + _circles(tuple(RING_SEARCH_RADII))))
@@ -276,11 +278,6 @@ def _refined(score: NDArray[np.float32], row: int, column: int) -> tuple[float, 
 def _summit(three: NDArray[np.float32]) -> float:
     before, here, behind = (float(value) for value in three)
     return float(np.clip((before - behind) / (2 * (before + behind - 2 * here) - 1e-9), -0.5, 0.5))
-
-
-def _ends(picture: Raster, place: complex, turn: float) -> bool:
-    """Whether one of a cross's strokes ends at both its ends, as those of two crossing construction lines do not."""
-    return any(_stroke_ends(picture, place, np.exp(1j * (turn + quarter * np.pi / 2))) for quarter in (0, 1))
 
 
 def _stroke_ends(picture: Raster, place: complex, ahead: complex) -> bool:

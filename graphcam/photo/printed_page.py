@@ -134,8 +134,9 @@ SIDE_NAMES: tuple[Side, Side] = ("left", "right")
 
 def half(page: PrintedPage, side: Side) -> PrintedPage:
     """One sheet of a page with a seam, in the page's own millimetres: its tags, and its parts of the views."""
-    seam = _seam(page)
-    low, high = (-np.inf, seam) if side == "left" else (seam, np.inf)
+    if page.seam is None:
+        raise ValueError("the page has no seam")
+    low, high = (-np.inf, page.seam) if side == "left" else (page.seam, np.inf)
     tags = {number: corner for number, corner in page.tags.items() if low <= corner.real < high}
     views = {name: view for name, whole in page.views.items() if (view := _part(whole, low, high)) is not None}
     return replace(page, tags=tags, views=views, seam=None)
@@ -151,9 +152,3 @@ def _part(view: PrintedView, low: float, high: float) -> PrintedView | None:
     left, bottom, right, top = view.room
     room: Edges = (max(left, low), bottom, min(right, high), top)
     return replace(view, room=room) if room[0] < room[2] else None
-
-
-def _seam(page: PrintedPage) -> float:
-    if page.seam is None:
-        raise ValueError("the page has no seam")
-    return page.seam

@@ -145,7 +145,8 @@ def _checked_registration(
     plausible: list[LaidSurface], page: PrintedPage, size: tuple[int, int], blur: float | None
 ) -> Registration:
     best = plausible[0]
-    points = np.concatenate([_grid(room) for room in _rooms(page)])
+    rooms = [view.room for view in page.views.values()] or [(0.0, 0.0, page.width, page.height)]
+    points = np.concatenate([_grid(room) for room in rooms])
     doubt = max([_doubt(laid, points) for laid in plausible])
     count, expected = len(best.sight.points), len(page.tags)
     found = Registration(
@@ -184,10 +185,6 @@ def _inside_picture(places: Places, size: tuple[int, int]) -> NDArray[np.bool_]:
     columns, rows = size
     across, down = np.abs(places.real - (columns - 1) / 2), np.abs(places.imag - (rows - 1) / 2)
     return (across <= columns / 2) & (down <= rows / 2)
-
-
-def _rooms(page: PrintedPage) -> list[Edges]:
-    return [view.room for view in page.views.values()] or [(0.0, 0.0, page.width, page.height)]
 
 
 def _grid(room: Edges) -> Places:

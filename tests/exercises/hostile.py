@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import os
 import socket
+import struct
 import zipfile
 from collections.abc import Callable
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 
 import ezdxf
@@ -69,6 +71,18 @@ def _empty_blocks(document: Drawing) -> None:
 
 def _spline_through(count: int) -> Build:
     return drawing(lambda document: document.modelspace().add_spline([(k % 7, k % 5) for k in range(count)]))
+
+
+def _overlapping_zip(folder: Path) -> None:
+    """Twenty thousand entries that are one stored file."""
+    body = BytesIO()
+    with zipfile.ZipFile(body, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("answers.toml", b"0" * 1_000_000)
+    data = body.getvalue()
+    listed, end = data.rfind(b"PK\x01\x02"), bytearray(data[data.rfind(b"PK\x05\x06") :])
+    entries = data[listed : data.rfind(b"PK\x05\x06")] * 20_000
+    struct.pack_into("<HHII", end, 8, 20_000, 20_000, len(entries), listed)
+    (folder / "answers.zip").write_bytes(data[:listed] + entries + bytes(end))
 
 
 def cells(*contents: object, **top: object) -> Build:
@@ -303,6 +317,21 @@ DATA: dict[str, Build] = {
     "an ellipse of a billion turns": entities(
         *(0, "ELLIPSE", 8, "PITCH", 10, 0, 20, 0, 11, 5, 21, 0, 40, 0.5, 41, -1e9, 42, 1e9)
     ),
+    "a spline of degree 40 by five thousand points": drawing(
+        lambda document: document.modelspace().add_open_spline([(k % 7, k % 5) for k in range(5000)], degree=40)
+    ),
+    "a polyline of bulges of 1e308": drawing(
+        lambda document: document.modelspace().add_lwpolyline([(0, 0, 0, 0, 1e308), (1, 1, 0, 0, -1e308)])
+    ),
+    "a layer with a direction": drawing(
+        lambda document: document.modelspace().add_line((0, 0), (1, 1), dxfattribs={"layer": "\u202ePITCH\u2066"})
+    ),
+    "an overlapping zip": _overlapping_zip,
+    "not by the ten thousand": notebook("{0} = " + "not " * 20_000 + "1"),
+    "units by the ten thousand": toml('{0} = "12' + " mm" * 15_000 + '"'),
+    "a unit with a direction": toml('{0} = "12 \u202emm\u202c"'),
+    "decimal commas by the ten thousand": toml('{0} = "1' + ",1" * 20_000 + '"'),
+    "an exponent of ten thousand digits": toml("{0} = 1e" + "9" * 10_000),
     "minus signs by the ten thousand": raw("answers.toml", b"{0} = " + "\u2212 ".encode() * 15_000 + b"1"),
     "outputs nested without end": raw(
         "answers.ipynb", b'{{"cells": [{{"outputs": ' + b"[" * 50_000 + b"]" * 50_000 + b"}}]}}"

@@ -16,7 +16,6 @@ from graphcam.constructions.axes import AXIS_OVERHANG, ordinate_title
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.views import ANALYSIS, PROFILE, at_scale
 from graphcam.drafting.marks import Mark, Points
-from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
 from graphcam.exercises.course.handouts import Sheets, answer_table, instructions
 from graphcam.exercises.course.page_parts import (
@@ -121,11 +120,8 @@ def _diagram(exercise: Exercise, chain: Chain, name: Diagram, tell: Tell) -> Mar
     room = Box(-before, low, turn + AXIS_OVERHANG + AXIS_TIP_MARGIN, high)
     unit = ordinate_title(AXES_ROOM[name][0], chain.board.follower.unit)
     title = tell(say("{title}: {unit}", title=view.title, unit=unit))
-    return MarkedView(view.name, room, marks, title, _scale_text(mu_phi, tell), turn)
-
-
-def _scale_text(mu_phi: Scale, tell: Tell) -> str:
-    return tell(say("φ, °; μᵩ = {mu:.4g}°/mm", mu=np.degrees(mu_phi.per_mm)))
+    scale = tell(say("φ, °; μᵩ = {mu:.4g}°/mm", mu=np.degrees(mu_phi.per_mm)))
+    return MarkedView(view.name, room, marks, title, scale, turn)
 
 
 Polyline = NDArray[np.complex128]

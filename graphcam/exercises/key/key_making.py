@@ -38,9 +38,9 @@ from graphcam.exercises.key.mistake_separation import (
     hypotheses,
     inseparable_pairs,
     out_of_sight,
+    passing,
     perfect_hands,
     plainly_alike,
-    untold,
 )
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.refused_draws import RefusalReason, Refusals, RefusedDraw, of_pairs
@@ -56,35 +56,28 @@ SAME_RADIUS = 1e-9
 """Radii that differ by less are the same [mm]."""
 
 
-def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
+def key_or_reason(variant: Variant, hands: PerfectHands | None = None) -> AnswerKey | RefusedDraw:
     """The answer key of a variant, or why it has none: its answers cannot tell every mistake from every other.
 
     Named together are those that the exercise lets be alike.  A variant has no key either whose diagrams find no room
-    on the worksheet, or in which one number handed in for all answers earns more than half of the marks.
+    on the worksheet, or in which one number handed in for all answers earns more than half of the marks.  What is
+    quickly found out comes first: of several draws most are turned away.
+
+    hands : what :func:`drawn_or_refused` found, where that is known
 
     Raises
     ------
     DesignError : a careful hand comes to nothing with it
     """
-    found = drawn_or_refused(variant)
-    return found if isinstance(found, RefusedDraw) else key_of_drawn(variant, found)
-
-
-def key_of_drawn(variant: Variant, drawn: PerfectHands) -> AnswerKey | RefusedDraw:
-    """The answer key of a variant that perfect hands have drawn, or why it has none.
-
-    What is quickly found out comes first, here and in :func:`drawn_or_refused`: of several draws most are turned away.
-
-    Raises
-    ------
-    DesignError : a careful hand comes to nothing with it
-    """
+    drawn = hands or drawn_or_refused(variant)
+    if isinstance(drawn, RefusedDraw):
+        return drawn
     exercise, radius = variant.exercise, variant.task.cam.prime_radius
     chains = {CAREFUL_WORK: drawn.right, **drawn.wrong}
-    hands = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HAND_COUNT)))
-    if torn(exercise, drawn.right, hands):
+    careful = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HAND_COUNT)))
+    if torn(exercise, drawn.right, careful):
         return RefusedDraw((RefusalReason("sides"),))
-    far = distances(exercise, drawn.answers, hands)
+    far = distances(exercise, drawn.answers, careful)
     keys = expected(exercise, drawn.answers, far, drawn.lengths, bulges_of(exercise, drawn.right))
     off = deviations(exercise, keys, far)
     bound = float(np.quantile(off.max(axis=1), 1 - LOSS_RATE_MARGIN * exercise.careful))
@@ -96,7 +89,8 @@ def key_of_drawn(variant: Variant, drawn: PerfectHands) -> AnswerKey | RefusedDr
     wrong: dict[str, tuple[Expected, ...]] = {}
     for name, values in hypotheses(exercise, drawn):
         wrong[name] = values
-        if pairs := untold(exercise, keys, wrong, name, bound):
+        alike = forbidden(exercise, inseparable_pairs(exercise, wrong))
+        if pairs := [*passing(exercise, keys, {name: values}, bound), *alike]:
             certain = (pair for pair in pairs if CAREFUL_WORK in pair and out_of_sight(exercise, keys, values, bound))
             return RefusedDraw(of_pairs(pairs), of_pairs(certain), chains)
     if names := too_many_kept(exercise, drawn, keys, bound):
@@ -104,7 +98,7 @@ def key_of_drawn(variant: Variant, drawn: PerfectHands) -> AnswerKey | RefusedDr
         wrongly = {name: misconception(name).change(drawn.right) for name in names}
         return RefusedDraw(reasons, reasons, chains | wrongly)
     # Not by their standard deviation, which rounding keeps from nought.
-    by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
+    by_hand = [bool(np.any(samples != samples[0])) for samples in careful]
     rows = zip(exercise.answers, keys, tolerances, drawn.lengths, by_hand, strict=True)
     return AnswerKey(
         *(exercise.name, exercise.version, variant.student, variant.draw, variant.parameters),
@@ -113,7 +107,7 @@ def key_of_drawn(variant: Variant, drawn: PerfectHands) -> AnswerKey | RefusedDr
         keys={asked.name: Key(key, most, most / length, is_drawn) for asked, key, most, length, is_drawn in rows},
         hypotheses={name: Hypothesis.of(wrong[name]) for name in exercise.misconceptions},
         alike=inseparable_pairs(exercise, {name: wrong[name] for name in exercise.misconceptions}),
-        dependences=dependences(exercise, drawn.right, keys, bound, hands, drawn.lengths),
+        dependences=dependences(exercise, drawn.right, keys, bound, careful, drawn.lengths),
     )
 
 

@@ -72,43 +72,24 @@ def perfect_hands(exercise: Exercise, right: Chain) -> PerfectHands:
 def hypotheses(exercise: Exercise, drawn: PerfectHands) -> Iterator[tuple[str, tuple[Expected, ...]]]:
     """What a student with each of the exercise's mistakes answers, and how it scatters, by the mistake's name.
 
-    Those whose numbers lie near right ones or near another mistake's come first: they may be taken for these.
+    Those that differ least from right work come first: they may be taken for it.
 
     Raises
     ------
     DesignError : the drawing with a mistake comes to nothing
     """
     careful = drawn.right.by(exercise.hand.pencil(HAND_COUNT))
-    for name in _nearest_first(exercise, drawn):
+
+    def difference(name: str) -> float:
+        """The maximum difference of an answer from the right one, as a part of it."""
+        pairs = zip(drawn.wrong_answers[name], drawn.answers, strict=True)
+        return max(float(np.max(np.abs(wrong - right) / (np.abs(right) + 1))) for wrong, right in pairs)
+
+    for name in sorted(drawn.wrong, key=difference):
         answers = drawn.wrong_answers[name]
         off = distances(exercise, answers, answers_of(exercise, misconception(name).change(careful)))
         bent = bulges_of(exercise, drawn.wrong[name])
         yield name, tuple(expected(exercise, answers, off, drawn.lengths, bent))
-
-
-def _nearest_first(exercise: Exercise, drawn: PerfectHands) -> list[str]:
-    """The mistakes in the order of how near the numbers of the nearest other work are, by rounding and calculating."""
-    numbers = [place for place, asked in enumerate(exercise.answers) if asked.kind == "number"]
-    rows = _rounded(exercise, drawn)
-    value = np.array([[rows[name][place].value for place in numbers] for name in rows], dtype=np.float64)
-    scatter = np.array([[rows[name][place].scatter for place in numbers] for name in rows], dtype=np.float64)
-    apart = (np.abs(value[:, None] - value) / (scatter[:, None] + scatter)).max(axis=-1, initial=0.0)
-    np.fill_diagonal(apart, np.inf)
-    nearest = dict(zip(rows, apart.min(axis=1).tolist(), strict=True))
-    return sorted(drawn.wrong, key=lambda name: nearest[name])
-
-
-def untold(
-    exercise: Exercise,
-    keys: Sequence[Expected],
-    wrong: Mapping[str, Sequence[Expected]],
-    name: str,
-    bound: float,
-) -> list[tuple[str, str]]:
-    """The pairs of one of the mistakes with careful work, and with the others, that forbid to issue the variant."""
-    others = [(other, name) for other in wrong if other != name]
-    alike = [pair for pair in others if not _are_separated(exercise, wrong[pair[0]], wrong[name])]
-    return [*passing(exercise, keys, {name: wrong[name]}, bound), *forbidden(exercise, alike)]
 
 
 def inseparable_pairs(exercise: Exercise, wrong: Mapping[str, Sequence[Expected]]) -> tuple[tuple[str, str], ...]:
@@ -172,16 +153,12 @@ def endless(drawn: PerfectHands) -> list[str]:
 
 def plainly_alike(exercise: Exercise, drawn: PerfectHands) -> tuple[tuple[str, str], ...]:
     """The pairs of mistakes, work without one among them, that rounding alone does not tell apart."""
-    return inseparable_pairs(exercise, _rounded(exercise, drawn))
-
-
-def _rounded(exercise: Exercise, drawn: PerfectHands) -> dict[str, list[Expected]]:
-    """What each of the perfect hands answers, as it scatters by rounding, reading and calculating alone."""
     rows = {CAREFUL_WORK: drawn.answers, **drawn.wrong_answers}
-    return {
+    values = {
         name: expected(exercise, row, [np.zeros((1, *value.shape)) for value in row], drawn.lengths)
         for name, row in rows.items()
     }
+    return inseparable_pairs(exercise, values)
 
 
 def have_same_answers(drawn: PerfectHands, a: str, b: str) -> bool:

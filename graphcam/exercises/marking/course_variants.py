@@ -10,7 +10,7 @@ from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.coinciding_answers import MAX_COINCIDENCE_SHARE
-from graphcam.exercises.key.key_making import MAX_DRAWS, drawn_or_refused, issue, key_of_drawn
+from graphcam.exercises.key.key_making import MAX_DRAWS, drawn_or_refused, issue, key_or_reason
 from graphcam.exercises.key.mistake_separation import PerfectHands
 from graphcam.exercises.key.refused_draws import RefusedDraw
 from graphcam.exercises.marking.marking import mark
@@ -40,7 +40,7 @@ def course_variants(
     """
     before: deque[AnswerKey] = deque(maxlen=GROUP_SIZE)
     names = list(students)
-    first = ordered_results(executor, partial(_first_variant, exercise, secret), names)
+    first = ordered_results(executor, partial(issue, exercise, secret=secret), names)
     for student, (variant, answer_key) in zip(names, first, strict=True):
         if any(too_near(exercise, answer_key, other) for other in before):
             variant, answer_key = _drawn_again(exercise, student, secret, variant.draw, before)
@@ -68,17 +68,13 @@ def _drawn_again(
         right = Answers({asked.name: float(value) if asked.kind == "number" else value for asked, value in rows})
         if any(earns_much(exercise, other, right) for other in before):
             passed_over.append((variant, hands))
-        elif isinstance(answer_key := key_of_drawn(variant, hands), AnswerKey):
+        elif isinstance(answer_key := key_or_reason(variant, hands), AnswerKey):
             if not any(earns_much(exercise, answer_key, right_answers(other)) for other in before):
                 return variant, answer_key
             near += 1
         while passed_over and near + len(passed_over) >= MAX_REDRAWS:
-            near += isinstance(key_of_drawn(*passed_over.popleft()), AnswerKey)
+            near += isinstance(key_or_reason(*passed_over.popleft()), AnswerKey)
     return issue(exercise, student, secret, draw + 1)
-
-
-def _first_variant(exercise: Exercise, secret: bytes, student: str) -> tuple[Variant, AnswerKey]:
-    return issue(exercise, student, secret)
 
 
 def too_near(exercise: Exercise, one: AnswerKey, other: AnswerKey) -> bool:

@@ -181,7 +181,8 @@ def _with_drawings(
 
 def _as_something_else(answer: ComparedAnswer) -> float:
     """What an answer costs if something else was done: a right one as by a careful hand, a wrong one anywhere."""
-    width = _width(answer.key)
+    # Of points the worst one counts, in a unit of its own, so no width is comparable there.
+    width = 2 * math.log(answer.key.scatter) if isinstance(answer.key.scatter, float) else 0.0
     if not answer.wrong:
         return min(answer.off.deviation**2, MAX_DEVIATIONS**2) + width
     if not isinstance(answer.given, float) or not isinstance(answer.key.value, float):
@@ -189,8 +190,3 @@ def _as_something_else(answer: ComparedAnswer) -> float:
     # A mistake that makes a number larger makes its scatter larger: that is no reason against it.
     size = max(abs(answer.key.value), answer.key.scatter)
     return UNEXPLAINED_COST + width + 2 * math.log(min(MAX_ERROR_GROWTH, max(1.0, abs(answer.given) / size)))
-
-
-def _width(value: Expected) -> float:
-    # Of points the worst one counts, in a unit of its own, so no width is comparable there.
-    return 2 * math.log(value.scatter) if isinstance(value.scatter, float) else 0.0

@@ -100,15 +100,15 @@ def to_json(exercise: Exercise, corrections: Corrections) -> str:
 def student_data(one: StudentCorrections) -> dict[str, Any]:
     """One student's corrections as JSON takes them."""
     answers = {
-        name: {"verdict": each.verdict, "value": _value_data(each.value), "photo": each.photo}
+        name: {
+            "verdict": each.verdict,
+            "value": pairs(each.value) if isinstance(each.value, np.ndarray) else each.value,
+            "photo": each.photo,
+        }
         for name, each in one.answers.items()
     }
     bars = {str(page): list(lengths) for page, lengths in one.bars.items()}
     return {"answers": answers, "bars": bars, "reviewed": one.reviewed}
-
-
-def _value_data(value: Given | None) -> float | list[list[float]] | None:
-    return pairs(value) if isinstance(value, np.ndarray) else value
 
 
 def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) -> Corrections:

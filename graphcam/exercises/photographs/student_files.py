@@ -41,7 +41,8 @@ def write_student(
     OutputError : it cannot be written
     """
     place = folder / folder_name(student.student)
-    former = {path.name: digest(path) for path in _files(place) if FORMER_FILE_PATTERN.fullmatch(path.name)}
+    files = [path for path in place.iterdir() if path.is_file()] if place.is_dir() else []
+    former = {path.name: digest(path) for path in files if FORMER_FILE_PATTERN.fullmatch(path.name)}
     with whole_folder(place, former) as draft:
         listed: list[dict[str, str]] = []
         for page, photo in student.pages.items():
@@ -57,10 +58,6 @@ def write_student(
         (draft / TOML).write_text(answer_lines(exercise, student.values()), encoding="utf-8", newline="\n")
         report = json.dumps(student_report(exercise, student) | {"overlays": listed}, indent=1, allow_nan=False)
         (draft / REPORT_FILE).write_text(report + "\n", encoding="utf-8", newline="\n")
-
-
-def _files(folder: Path) -> list[Path]:
-    return [path for path in folder.iterdir() if path.is_file()] if folder.is_dir() else []
 
 
 def answer_lines(exercise: Exercise, values: Mapping[str, Given]) -> str:

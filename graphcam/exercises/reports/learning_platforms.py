@@ -56,9 +56,5 @@ def _comment_text(record: Mapping[str, Any]) -> str:
     """What the student is told, and what must be said of the submission; of one who has not handed in only that."""
     notes = list(record.get("notes", ()))
     told = [*record["feedback"], *notes] if is_handed_in(record) else notes
-    return _feedback(list(dict.fromkeys(told)))
-
-
-def _feedback(sentences: Sequence[str]) -> str:
-    """HTML with each sentence on its own line."""
-    return "<br>".join(escape(said, quote=False) for said in sentences)
+    # Each sentence on its own line.
+    return "<br>".join(escape(said, quote=False) for said in dict.fromkeys(told))

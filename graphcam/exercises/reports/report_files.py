@@ -203,9 +203,6 @@ def _long_row(record: dict[str, Any], answer: dict[str, Any]) -> list[Any]:
     station = None if answer["station"] is None else answer["station"] + 1
     marked = [answer[name] for name in ("name", "outcome", "marks", "of")]
     off = [answer["deviation"], station, answer["off_paper"]]
-    return [record["student"], record["exercise"], *marked, _number(answer["given"]), *off]
-
-
-def _number(given: Any) -> Any:
-    """A number; of points and curves only how many there are."""
-    return f"{len(given)} points" if isinstance(given, list) else given
+    # Of points and curves only how many there are.
+    given = f"{len(answer['given'])} points" if isinstance(answer["given"], list) else answer["given"]
+    return [record["student"], record["exercise"], *marked, given, *off]
