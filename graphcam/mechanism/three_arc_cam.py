@@ -79,7 +79,7 @@ def three_arc_cam(
     >>> cam.sound, cam.C3.round(3).tolist(), cam.F.round(3).tolist()
     (True, [12.003, -14.394], [46.834, 25.855])
     >>> print(other.why)
-    On the line of F, C1 and C3 the order is C1, F, C3 instead of F, C1, C3: the profile would turn back in a cusp at F.
+    On the line of F, C₁ and C₃ the order is C₁, F, C₃ instead of F, C₁, C₃: the profile would turn back in a cusp at F.
     """
     given = ThreeArcs(D, G, rho1, A, C1, C2)
     c1, c2 = first_centre(given), second_centre(given)

@@ -773,9 +773,9 @@ def test_prime_circle_and_pivot_circle_have_the_sizes_that_are_told(name):
     mu, c, r0 = inverted.givens.mu_l.per_mm, inverted.givens.distance, inverted.givens.prime_radius
     circles = [(circle.centre, circle.radius) for circle in marks(steps[0], Circle)]
     assert circles == [(0, pytest.approx(r0 / mu)), (0, pytest.approx(c / mu))]
-    (arrow,), text = marks(steps[0], Arrow), f"r₀ = {r0:g}"
-    assert (arrow.start, abs(arrow.end)) == (0, pytest.approx(r0 / mu))
-    assert labels(steps[0])[text].at == pytest.approx(0.6 * arrow.end)
+    (radius,) = (mark for mark in marks(steps[0], Dimension) if mark.of_radius)
+    assert (str(radius.text), radius.start) == (f"r₀ = R{r0:g}", 0)
+    assert abs(radius.end) == pytest.approx(r0 / mu)
     prime, pivots = (str(part.caption) for part in steps[0].parts)
     assert prime.startswith(f"Set the compass to {r0 / mu:.1f} mm (r₀ = {r0:g} mm at {ratio(mu)}) and draw the prime")
     assert pivots.startswith(f"Set the compass to {c / mu:.1f} mm (c = {c:g} mm at {ratio(mu)}) and draw the circle of")

@@ -118,9 +118,8 @@ def test_a_misspelt_new_number_is_suggested():
         read(plan_statoin=40)
 
 
-def test_a_new_number_is_in_the_form(monkeypatch):
-    solution = solved("coursework")
-    monkeypatch.setitem(solution.__dict__, "task", read(plan_station=40))
+def test_a_new_number_is_in_the_form():
+    solution = dataclasses.replace(solved("coursework"), task=read(plan_station=40))
     field = next(each for each in form_of(solution, str) if each["path"] == "drawing.plan_station")
     told = {"group": "Drawing", "name": "Station of the velocity plan", "unit": "°", "kind": "open-number"}
     assert field == {"path": "drawing.plan_station", **told, "value": 40, "min": 0, "max": 359, "step": 1} | {
