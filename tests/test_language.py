@@ -160,7 +160,7 @@ def letters_on(solution) -> list[str]:
     return [e.text for page in pages for group in page.groups for e in group.entities if isinstance(e, Text)]
 
 
-SHOWN = {"ru": tuple(TASKS)} | dict.fromkeys(UNREAD, ("coursework", "spring", "arcs"))
+SHOWN = dict.fromkeys(CATALOGS, tuple(TASKS)) | dict.fromkeys(UNREAD, ("coursework", "spring", "arcs"))
 """The tasks of which all is looked at, by language: every one in a language that is read."""
 NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in SHOWN[spoken]]
 # What errors of the hand add is the same for every task.

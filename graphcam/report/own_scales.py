@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, PROFILE, VELOCITY
 from graphcam.sheets.layout import PagesOfPart
-from graphcam.solving.solution import Solution, solved_on
+from graphcam.solving.solution import Solution
 
 MIN_GAINS = {PROFILE.name: 1.01, COMBINED.name: 1.4}
 """So many times larger a view must become to be drawn in a scale of its own, by its name, the main view first."""
@@ -46,6 +46,6 @@ def with_own_scales(solution: Solution, parts: Sequence[PagesOfPart]) -> Solutio
             held = tried
     if held == paper.held:
         return solution
-    redrawn = solved_on(replace(chain.board, paper=replace(paper, held=held)), solution.task, chain.pencil)
+    redrawn = replace(chain, board=replace(chain.board, paper=replace(paper, held=held)), done={})
     # A larger drawing may be read more exactly; what is built stays as it was.
-    return redrawn if redrawn.chain.sizes == chain.sizes else solution
+    return replace(solution, chain=redrawn) if redrawn.sizes == chain.sizes else solution

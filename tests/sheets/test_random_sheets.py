@@ -21,7 +21,7 @@ from test_pages import check_pages
 from test_paper_lengths import check_drawing
 
 import graphcam as gc
-from graphcam.report.documents import sheet_of
+from graphcam.report.documents import contents_of, drawing_of, sheet_of
 from graphcam.sheets.model import Angle, Drawing, Length, Strokes, Text
 from graphcam.sheets.sampling import box_of
 from graphcam.tasks.task_file import builtin_task
@@ -99,8 +99,8 @@ SOME = (*range(0, 60, 13), *CROWDED)
 @over_seeds(SOME)
 def test_sheets_of_random_tasks(seed: int) -> None:
     """Nothing is in the way: on the finished sheet, and on some blank ones and those of one construction each."""
-    solution = solved(seed)
-    sheet = sheet_of(solution)
+    contents = contents_of(solved(seed))
+    solution, sheet = contents.solution, drawing_of(contents)
     check(sheet, CROWDED.get(seed, ""))
     check_drawing(solution, sheet)
     assert all(share > 0.35 for share in check_pages(solution, sheet.pages)[:-1])
@@ -113,8 +113,8 @@ def test_sheets_of_random_tasks(seed: int) -> None:
 @over_seeds(15)
 def test_sheets_of_built_in_tasks(seed: int) -> None:
     name, sheet = built_in(seed)
-    solution = on_sheet(name, sheet)
-    drawing = sheet_of(solution)
+    contents = contents_of(on_sheet(name, sheet))
+    solution, drawing = contents.solution, drawing_of(contents)
     check_drawing(solution, drawing)
     assert all(share > 0.35 for share in check_pages(solution, drawing.pages)[:-1])
     assert most_empty(drawing) <= SPARSE.get((name, *sheet), MAX_EMPTY_SHARE)

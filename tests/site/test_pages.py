@@ -310,7 +310,8 @@ solution = gc.solve(replace(gc.builtin_task(), motion=MotionTable(phases)))
 bounds = proved_bounds(solution.cam.motion, solution.chain.board.stations)
 assert bounds["max_v"] > 0 and bounds["max_a"] > 0
 assert law_eps(NAMED) < 200
-choices = [field["laws"] for field in form_of(solution, str) if "laws" in field][0]
+(phases,) = (field["phases"] for field in form_of(solution, str) if field["kind"] == "phases")
+(choices,) = (field["choices"] for field in phases[0]["fields"] if field["kind"] == "choice")
 assert NAMED in [choice["value"] for choice in choices]
 """
 """What the other rooms make of a law that has landed."""
