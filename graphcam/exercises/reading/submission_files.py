@@ -10,7 +10,7 @@ import numpy as np
 from graphcam.drafting.ink import Caption, say
 from graphcam.dxf_curves import read_layers
 from graphcam.errors import UnreadableError
-from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Given
+from graphcam.exercises.definition.exercise import BAR, Answers, AskedAnswer, Given
 from graphcam.exercises.reading.answer_tables import csv_values, toml_values
 from graphcam.exercises.reading.answer_values import number, points, short_text
 from graphcam.exercises.reading.drawn_layers import CadDrawing
@@ -93,7 +93,7 @@ def from_files(
     notebook: Reader | None = None,
     rooms: Mapping[str, PaperArea] | None = None,
 ) -> Answers:
-    """What the files answer.
+    """What the files answer, and what they tell as :data:`BAR` beside it.
 
     asked : the answers that there should be
     files : bytes by name, as :func:`read_files` finds them
@@ -115,11 +115,11 @@ def from_files(
         for answer, value in values.items():
             if not is_gap(value):
                 given.setdefault(answer, []).append(value)
-    given, more = by_answer_names(asked, given)
+    given, more = by_answer_names([*asked, BAR], given)
     notes += more
     if TOML in files:
         # Bytes that are no text have been told already.
-        for answer, text in left_commented(asked, given, files[TOML].decode("utf-8-sig", "ignore")).items():
+        for answer, text in left_commented([*asked, BAR], given, files[TOML].decode("utf-8-sig", "ignore")).items():
             given[answer] = [text]
             notes.append(say("{answer} is read, though the # was left in before it", answer=answer))
     drawing = None
@@ -150,7 +150,7 @@ def _answers(
     values: dict[str, Given] = {}
     problems: dict[str, Caption] = {}
     unmarked = False
-    for one in asked:
+    for one in (*asked, BAR):
         try:
             if one.name in given:
                 values[one.name] = _agreed_value(one, given[one.name])
@@ -165,7 +165,7 @@ def _answers(
             *notes,
             say("{name} marks no origin by a POINT on the layer ORIGIN; the drawing's own zero is used", name=DXF),
         ]
-    if not values and not problems:
+    if not (values.keys() | problems.keys()) - {BAR.name}:
         notes = [*notes, NO_ANSWERS_REMARK]
     return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown_name_remark(asked, given)))
 
@@ -216,7 +216,7 @@ def _value(asked: AskedAnswer, value: Any) -> Given:
 def _unknown_name_remark(asked: list[AskedAnswer], given: Mapping[str, list[Any]]) -> list[Caption]:
     """A sentence on the first name that was not asked: a slip of the keys loses an answer otherwise."""
     names = [one.name for one in asked]
-    strange = [name for name in given if name not in names]
+    strange = [name for name in given if name not in (*names, BAR.name)]
     if not strange or len(given.keys() & set(names)) == len(names):
         return []
     first = short_text(strange[0])
