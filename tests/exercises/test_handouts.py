@@ -38,11 +38,12 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
+from graphcam.exercises.exports.question_parts import IssuedVariant, worksheet_pdf
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import ANSWER_TAG
 from graphcam.exercises.reading.submission_files import read_files
 from graphcam.files import OutputError
-from graphcam.sheets.model import Text
+from graphcam.sheets.model import Drawing, Text
 from graphcam.tasks.task_writer import task_files
 
 
@@ -51,11 +52,12 @@ def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     variant = drawn(find_exercise(name), "Anna", SECRET, 0)
     read = notebook(variant)
     nbformat.validate(read)
+    told = [*(asked.name for asked in variant.exercise.answers), "bar"]
     cell = next(cell for cell in read.cells if ANSWER_TAG in cell.metadata.get("tags", ()))
-    assert cell.source.splitlines() == [f"{asked.name} = None" for asked in variant.exercise.answers]
+    assert cell.source.splitlines() == [f"{name} = None" for name in told]
     assert tomllib.loads(answer_file(variant.exercise)) == {}
     filled = answer_file(variant.exercise).replace("\n# ", "\n").splitlines()
-    assert {f"{asked.name} =" in " ".join(filled) for asked in variant.exercise.answers} == {True}
+    assert {f"{name} =" in " ".join(filled) for name in told} == {True}
     path = tmp_path / "task.toml"
     path.write_text(task_files(variant.task)["task.toml"], encoding="utf-8")
     assert gc.load_task(path) == variant.task
@@ -64,7 +66,7 @@ def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     assert f"{variant.parameters['lift']}" in said
 
 
-SPOKEN = {"DXF", "POINT", "ORIGIN", "PITCH", "ROLLERS", "worksheet", "answers", "dxf", "min"}
+SPOKEN = {"DXF", "POINT", "ORIGIN", "PITCH", "ROLLERS", "worksheet", "answers", "dxf", "min", "bar"}
 """What is called so in every language."""
 
 
@@ -373,14 +375,28 @@ def test_a_copy_of_an_exercise_is_its_file_and_replaces_nothing(tmp_path):
     assert CliRunner().invoke(app, [*command[:-1], str(tmp_path / "mine.txt")]).exit_code == 2
 
 
+def told_on(sheet: Drawing) -> str:
+    texts = [e.text for page in sheet.pages for group in page.groups for e in group.entities if isinstance(e, Text)]
+    return " ".join(" ".join(texts).split())
+
+
 @pytest.mark.parametrize("name", library())
-def test_every_worksheet_tells_how_to_see_a_print_that_is_too_small(name: str):
-    """Right work on a print at 99 % keeps its marks, at 98 % it need not: the rule of 100 mm on the sheet shows it."""
+def test_every_worksheet_asks_how_large_it_was_printed(name: str):
+    """A print that is too small is told by the rule of 100 mm on every page."""
     exercise = find_exercise(name)
     sheet = worksheet(drawn(exercise, "Anna", SECRET, 0), Student("Anna", "Anna"))
     for page in sheet.pages:
         texts = [e.text for group in page.groups for e in group.entities if isinstance(e, Text)]
         assert "100" in texts
         assert any("true to scale" in text for text in texts)
-    told = " ".join(e.text for p in sheet.pages for g in p.groups for e in g.entities if isinstance(e, Text))
-    assert "if it is shorter than 99 mm, print the sheet again" in " ".join(told.split())
+    assert "write its length in mm as bar in your answers; if it is shorter than 90 mm, print the" in told_on(sheet)
+
+
+def test_where_no_length_can_be_told_the_sheet_must_be_printed_again(monkeypatch: pytest.MonkeyPatch):
+    """Right work on a print at 99 % keeps its marks, at 98 % it need not: a learning platform has no place for it."""
+    sheets: list[Drawing] = []
+    monkeypatch.setattr("graphcam.sheets.matplotlib_renderer.write_pdf", lambda sheet, _: sheets.append(sheet))
+    exercise, answer_key = issued("integration")
+    student, variant = Student("Anna", "Anna"), drawn(exercise, "Anna", SECRET, answer_key.draw)
+    worksheet_pdf(IssuedVariant(student, variant, answer_key))
+    assert "if it is shorter than 99 mm, print the sheet again" in told_on(sheets[0])

@@ -169,7 +169,9 @@ def _answers(assignment: Assignment, submission: Submission, answer_key: AnswerK
         return read()
     from graphcam.exercises.running.code_answers import run_notebook
 
-    return read(notebook=partial(run_notebook, assignment.level, [one.name for one in (*asked, BAR)], assignment.limits))
+    return read(
+        notebook=partial(run_notebook, assignment.level, [one.name for one in (*asked, BAR)], assignment.limits)
+    )
 
 
 def _paper_areas(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperArea]:

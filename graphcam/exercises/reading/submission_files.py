@@ -101,7 +101,7 @@ def from_files(
     notebook : how the notebook is run; None reads the literals of its answer cell
     rooms : by the answer's name, where on the paper a drawn one can lie
     """
-    asked, notes = list(asked), list(notes)
+    asked, notes = [*asked, BAR], list(notes)
     given: dict[str, list[Any]] = {}
     notebook = notebook or _table(notebook_values)
     readers: dict[str, Reader] = {TOML: _table(toml_values), CSV: _table(csv_values), NOTEBOOK: notebook}
@@ -115,11 +115,11 @@ def from_files(
         for answer, value in values.items():
             if not is_gap(value):
                 given.setdefault(answer, []).append(value)
-    given, more = by_answer_names([*asked, BAR], given)
+    given, more = by_answer_names(asked, given)
     notes += more
     if TOML in files:
         # Bytes that are no text have been told already.
-        for answer, text in left_commented([*asked, BAR], given, files[TOML].decode("utf-8-sig", "ignore")).items():
+        for answer, text in left_commented(asked, given, files[TOML].decode("utf-8-sig", "ignore")).items():
             given[answer] = [text]
             notes.append(say("{answer} is read, though the # was left in before it", answer=answer))
     drawing = None
@@ -150,7 +150,7 @@ def _answers(
     values: dict[str, Given] = {}
     problems: dict[str, Caption] = {}
     unmarked = False
-    for one in (*asked, BAR):
+    for one in asked:
         try:
             if one.name in given:
                 values[one.name] = _agreed_value(one, given[one.name])
@@ -215,7 +215,7 @@ def _value(asked: AskedAnswer, value: Any) -> Given:
 
 def _unknown_name_remark(asked: list[AskedAnswer], given: Mapping[str, list[Any]]) -> list[Caption]:
     """A sentence on the first name that was not asked: a slip of the keys loses an answer otherwise."""
-    names = [one.name for one in asked]
+    names = [one.name for one in asked if one is not BAR]
     strange = [name for name in given if name not in (*names, BAR.name)]
     if not strange or len(given.keys() & set(names)) == len(names):
         return []
