@@ -5,8 +5,10 @@ of the text.  So every answer has a factor of its own: the width of the axis goe
 """
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import say
@@ -18,14 +20,12 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.answer_scatter import answer_of
 from graphcam.words import Words
 
-TRUE_LENGTH = 100.0
-"""The length of the worksheet's rule on a true print [mm]."""
-LENGTHS = (90.0, 105.0)
-"""No print is smaller or larger than that; its rule was measured wrongly [mm]."""
+TRUE_LENGTH, LENGTHS = 100.0, (90.0, 105.0)
+"""How long the worksheet's rule is on a true print, and what it measures on any other [mm]."""
 NEGLIGIBLE = 0.25
 """A rule that is off by less is read no better [mm]."""
 NEAR_NOUGHT = 5.0
-"""A value whose factor differs from 1 by more of the print's own differences lies near nought, where none has one."""
+"""A value whose factor is farther from 1 than so many times the print's own size lies near nought, and has none."""
 
 
 def on_true_print(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -> Answers:
@@ -33,9 +33,9 @@ def on_true_print(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -
 
     A length that no print can have is told, and the answers stay as they are.
     """
-    length = answers.values.get(BAR.name, TRUE_LENGTH)
     wrong: Words | None = answers.problems.get(BAR.name)
-    if not isinstance(length, float) or not LENGTHS[0] <= length <= LENGTHS[1]:
+    length = float(answers.values.get(BAR.name, TRUE_LENGTH))
+    if wrong is None and not LENGTHS[0] <= length <= LENGTHS[1]:
         wrong = say("{name} is {length:g} mm", name=BAR.name, length=length)
     if wrong is not None:
         note = say(
@@ -46,30 +46,28 @@ def on_true_print(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -
             most=LENGTHS[1],
         )
         return replace(answers, notes=(*answers.notes, note))
-    size = float(length) / TRUE_LENGTH
     if abs(length - TRUE_LENGTH) <= NEGLIGIBLE:
         return answers
+    size, values = length / TRUE_LENGTH, dict(answers.values)
     right = board_chain(Variant(exercise, answer_key.student, answer_key.draw, answer_key.parameters).task)
-    printed, values = drawn_on_print(exercise, right, size), dict(answers.values)
+    printed = drawn_on_print(exercise, right, size)
     for asked in exercise.answers:
         if asked.name in values:
-            perfect, small = (np.atleast_1d(answer_of(chain, asked)) for chain in (right, printed))
-            values[asked.name] = _enlarged(values[asked.name], perfect, small, size)
+            true, small = (np.atleast_1d(answer_of(chain, asked)) for chain in (right, printed))
+            values[asked.name] = _divided(values[asked.name], true, small, NEAR_NOUGHT * abs(size - 1))
     note = say(
         "the answers are taken as read on a print of {percent:.3g} % and told as they would be at 100 %",
-        percent=100 * size,
+        percent=length,
     )
     return replace(answers, values=values, notes=(*answers.notes, note))
 
 
-def _enlarged(given: Given, perfect: np.ndarray, small: np.ndarray, size: float) -> Given:
-    """An answer over its factor; of points each over that of the nearest place that was to be drawn."""
+def _divided(given: Given, true: NDArray[Any], small: NDArray[Any], near: float) -> Given:
+    """An answer over its factor, points each over that of the nearest place; near nought as far off as it was."""
     nearest = np.abs(np.subtract.outer(np.atleast_1d(given), small)).argmin(axis=1)
-    perfect, small = perfect[nearest], small[nearest]
-    with np.errstate(all="ignore"):
-        factor = small / perfect
-        near_nought = ~(np.abs(factor - 1) <= NEAR_NOUGHT * abs(size - 1))
-        found = np.where(near_nought, given - small + perfect, given / factor)
+    true, small = true[nearest], small[nearest]
+    is_small = np.abs(small - true) >= near * np.abs(true)
+    found = np.where(is_small, given - small + true, given * true / np.where(is_small, 1.0, small))
     return found if isinstance(given, np.ndarray) else float(found[0])
 
 
