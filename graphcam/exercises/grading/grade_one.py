@@ -135,10 +135,8 @@ def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
     exercise, level = assignment.exercise, assignment.level
     answers = tuple(MarkedAnswer(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
     said = (exercise.tell(why),)
-    record = Record(
-        student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False, said, said, level
-    )
-    return replace(record, memory=assignment.memory)
+    of = (student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks)
+    return Record(*of, None, False, said, said, level, memory=assignment.memory)
 
 
 def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:

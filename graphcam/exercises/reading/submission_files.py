@@ -103,11 +103,10 @@ def from_files(
     """
     asked, notes = [*asked, BAR], list(notes)
     given: dict[str, list[Any]] = {}
-    notebook = notebook or _table(notebook_values)
-    readers: dict[str, Reader] = {TOML: _table(toml_values), CSV: _table(csv_values), NOTEBOOK: notebook}
-    for name in (name for name in readers if name in files):
+    for name in (name for name in TABLES if name in files):
         try:
-            values, more = readers[name](name, files[name])
+            read = notebook if notebook and name == NOTEBOOK else _table(TABLES[name])
+            values, more = read(name, files[name])
         except UnreadableError as error:
             notes.append(error.why)
             continue
