@@ -18,7 +18,7 @@ from issued_variants import SECRET, issued, key
 from russian import english_words
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.handouts import PRINT_CHECK, worksheet
+from graphcam.exercises.course.handouts import worksheet
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -202,7 +202,7 @@ def test_the_question_brings_the_variants_worksheet(tmp_path: Path):
     file = question.find("questiontext/file")
     assert file is not None
     assert file.attrib == {"name": "worksheet.pdf", "path": "/", "encoding": "base64"}
-    write_pdf(worksheet(one.variant, one.student, PRINT_CHECK), tmp_path / "sheet.pdf")
+    write_pdf(worksheet(one.variant, one.student), tmp_path / "sheet.pdf")
     assert base64.b64decode(file.text or "", validate=True) == (tmp_path / "sheet.pdf").read_bytes()
     page = Shown(parsed(question.findtext("questiontext/text") or "")[0])
     assert page.links == ["@@PLUGINFILE@@/worksheet.pdf"]

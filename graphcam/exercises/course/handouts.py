@@ -34,16 +34,12 @@ from graphcam.words import Caption, Words, say, say_in, say_many
 LINE_LENGTH = 96
 """Letters in a line of the task in ``answers.toml``."""
 PRINT_CHECK = say(
-    "Measure the rule of 100 mm on this sheet: if it is shorter than 99 mm, print the sheet again at 100 % of its size."
-)
-"""What tells a print that is too small where none can say how small: right work on one at 99 % keeps its marks, at 98 %
-it need not."""
-LENGTH_REQUEST = say(
-    "Measure the rule of 100 mm on this sheet and write its length in mm as {name} in your answers; if it is shorter "
-    "than 90 mm, print the sheet again.",
+    "Measure the rule of 100 mm on this sheet and write its length in mm as {name} in your answers. If it is shorter "
+    "than 90 mm, or than 99 mm and your answers have no {name}, print the sheet again at 100 % of its size.",
     name=BAR.name,
 )
-"""What the sheet says where answers are handed in as a file."""
+"""What tells a print that is too small: where its size is not told, right work on one at 99 % keeps its marks, at 98 %
+it need not."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """The columns of the key's table, as :func:`key_rows` fills them."""
 
@@ -108,18 +104,15 @@ def _told_by_file(exercise: Exercise) -> tuple[AskedAnswer, ...]:
     return (*exercise.answers, *([] if exercise.paper else [replace(BAR, text=text)]))
 
 
-def worksheet(variant: Variant, student: Student, print_check: Caption = LENGTH_REQUEST) -> Drawing:
-    """The sheet to draw on: what is given, and the table for the answers.
-
-    print_check : what is said of the rule of 100 mm
-    """
+def worksheet(variant: Variant, student: Student) -> Drawing:
+    """The sheet to draw on: what is given, and the table for the answers."""
     exercise, chain = variant.exercise, board_chain(variant.task)
     steps = [
         (name, step) for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]
     ]
     steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
     # One that is photographed has bars of its own, whose lengths are asked.
-    notes = [instructions(variant), *([] if exercise.paper else [exercise.tell(print_check)])]
+    notes = [instructions(variant), *([] if exercise.paper else [exercise.tell(PRINT_CHECK)])]
     return _composed(variant, student, steps, [answer_table(exercise)], notes)
 
 

@@ -9,7 +9,7 @@ from io import BytesIO
 from typing import NamedTuple
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.handouts import PRINT_CHECK, worksheet
+from graphcam.exercises.course.handouts import worksheet
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.mistakes import misconception
@@ -99,7 +99,7 @@ def worksheet_pdf(issued: IssuedVariant) -> bytes:
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
     file = BytesIO()
-    write_pdf(worksheet(issued.variant, issued.student, PRINT_CHECK), file)
+    write_pdf(worksheet(issued.variant, issued.student), file)
     return file.getvalue()
 
 
