@@ -66,8 +66,8 @@ def _divided(given: Given, true: NDArray[Any], small: NDArray[Any], near: float)
     """An answer over its factor, points each over that of the nearest place; near nought as far off as it was."""
     nearest = np.abs(np.subtract.outer(np.atleast_1d(given), small)).argmin(axis=1)
     true, small = true[nearest], small[nearest]
-    is_small = np.abs(small - true) >= near * np.abs(true)
-    found = np.where(is_small, given - small + true, given * true / np.where(is_small, 1.0, small))
+    near_nought = np.abs(small - true) >= near * np.abs(true)
+    found = np.where(near_nought, given - small + true, given * true / np.where(near_nought, 1.0, small))
     return found if isinstance(given, np.ndarray) else float(found[0])
 
 
