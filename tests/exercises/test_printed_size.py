@@ -13,6 +13,7 @@ from over_all import over_all
 
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
+from graphcam.exercises.course.handouts import answer_file
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
@@ -159,6 +160,11 @@ def test_a_value_near_nought_is_moved_as_far_as_the_print_moves_it():
             assert read.values["y_8"] == pytest.approx(true - 0.7)
             found += 1
     assert found
+
+
+def test_a_sheet_that_is_photographed_has_bars_of_its_own():
+    assert "# bar =" in answer_file(find_exercise("inversion-arm"))
+    assert "# bar =" not in answer_file(find_exercise("inversion-arm", paper="A4"))
 
 
 def test_no_answer_of_an_exercise_is_called_so():
