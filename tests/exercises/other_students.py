@@ -92,19 +92,51 @@ def on_printed_axis(right: Chain, hands: OtherStudents, printed: float) -> Chain
     chain = Chain(board, hands)
     drawn = chain.integration
     if "analysis" in chain.names:
-        # The outline of a given cam is printed smaller too.
-        shown = chain.analysis.readings["s"].paper
-        chain = chain.continued_from(with_reading(chain.analysis, "s", printed * shown))
+        # The outline of a given cam is printed smaller too: all is as on a true print with a larger roller and offset.
+        givens = right.analysis.givens
+        roller, place = givens.roller_radius / printed, givens.place / printed
+        prime = givens.prime_radius - givens.roller_radius + roller
+        larger = replace(givens, roller_radius=roller, place=place, prime_radius=prime)
+        analysis = board.follower.analysis(larger, hands)
+        pitch = {**analysis.points, "pitch": printed * analysis.points["pitch"]}
+        analysis = with_reading(analysis, "s", printed * analysis.readings["s"].paper)
+        chain = chain.continued_from(replace(analysis, points=pitch))
         drawn = chain.differentiation
     for name in ("v", "a"):
         drawn = rescaled(drawn, name, np.asarray(drawn.readings[name].scale) / printed)
     return chain.continued_from(drawn)
 
 
+def on_printed_sheet(exercise: Exercise, right: Chain, hands: OtherStudents, printed: float) -> Chain:
+    """The drawing on a worksheet of which not only that axis was printed smaller, but all that it shows."""
+    shown, board = exercise.sheet, right.board
+    if printed == 1.0:
+        return right.by(hands)
+    if "differentiation" in shown:
+        drawn = right.by(hands).differentiation
+        return right.by(hands).continued_from(with_reading(drawn, "rise", printed * drawn.readings["rise"].paper))
+    if "acceleration" in shown:
+        # Printed ordinates of 98 % are those of a diagram that was begun with 98 % of its ordinate.
+        right = Chain(replace(board, ordinate=printed * board.ordinate))
+    return about_printed_circles(exercise, on_printed_axis(right, hands, printed), printed)
+
+
+def about_printed_circles(exercise: Exercise, chain: Chain, printed: float) -> Chain:
+    """The drawing whose profile stands about the circles of the worksheet, where it shows any."""
+    if "inversion" not in exercise.sheet or printed == 1.0:
+        return chain
+    # They are those of another cam, drawn at the scale of this one.
+    board = chain.board
+    follower = replace(board.follower, place=printed * chain.place)
+    paper = replace(board.paper, held={**board.paper.held, "profile": chain.profile_scale.per_mm})
+    other = Chain(replace(board, follower=follower, prime_radius=printed * chain.prime_radius, paper=paper))
+    return chain.continued_from(other.by(chain.pencil).continued_from(chain.integration).inversion)
+
+
 def answers_of_others(exercise: Exercise, right: Chain, hands: OtherStudents, printed: float = 1.0) -> list[Answers]:
     """What each of them hands in who draws everything right, on sheets printed at that size."""
     assert hands.samples is not None
-    chain = on_printed_axis(right, hands, printed)
+    chain = on_printed_sheet(exercise, right, hands, printed)
     columns: dict[str, np.ndarray] = {}
     for asked in exercise.answers:
         if asked.kind != "number":
@@ -121,7 +153,7 @@ def answers_of_others(exercise: Exercise, right: Chain, hands: OtherStudents, pr
         columns[asked.name] = np.broadcast_to(np.round(value, asked.decimals), (hands.samples,))
         if asked.of == "scale":
             # What is reckoned later is reckoned with the rounded scale.
-            chain = with_own_answers(chain, asked, columns[asked.name])
+            chain = about_printed_circles(exercise, with_own_answers(chain, asked, columns[asked.name]), printed)
     numbers = {asked.name for asked in exercise.answers if asked.kind == "number"}
     return [
         Answers({name: float(values[k]) if name in numbers else values[k] for name, values in columns.items()})

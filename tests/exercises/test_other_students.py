@@ -12,9 +12,11 @@ from over_all import fast_first
 
 from graphcam.drafting.acts import Kind
 from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.exercise import BAR
 from graphcam.exercises.definition.exercise_file import library
 from graphcam.exercises.definition.student_hands import HandTable
 from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.key.printed_size import on_true_print
 from graphcam.exercises.marking.marking import mark
 
 HANDS = 400
@@ -22,11 +24,17 @@ PRINTED_SMALL = 0.1
 """The part of the students whose printer makes 99 % of everything."""
 
 
-def losing(name: str, student: str, printed: float = 1.0) -> dict[str, float]:
-    """The part of them that loses each answer, and any under the name ""."""
+def losing(name: str, student: str, printed: float = 1.0, *, told: bool = False) -> dict[str, float]:
+    """The part of them that loses each answer, and any under the name "".
+
+    told : whether they tell how long the rule on their sheet is
+    """
     exercise, answer_key = issued(name, student)
     right = board_chain(Variant(exercise, student, answer_key.draw, answer_key.parameters).task)
     given = answers_of_others(exercise, right, OtherStudents(samples=HANDS, seed=5), printed)
+    if told:
+        given = [replace(each, values={**each.values, BAR.name: 100 * printed}) for each in given]
+        given = [on_true_print(exercise, answer_key, each) for each in given]
     records = [mark(exercise, answer_key, each) for each in given]
     found = {"": float(np.mean([record.total < record.of for record in records]))}
     for k, asked in enumerate(exercise.answers):
@@ -38,10 +46,19 @@ def losing(name: str, student: str, printed: float = 1.0) -> dict[str, float]:
 @pytest.mark.parametrize("name", fast_first(library(), 2))
 def test_their_right_work_loses_a_point_in_at_most_two_percent(name: str):
     rates = [losing(name, "Anna")[""], losing(name, "Anna", 0.99)[""]]
-    if name == "differentiation":
-        # What it measures is printed itself, and smaller together with its axis: no slope changes.
-        rates[1] = rates[0]
     assert (1 - PRINTED_SMALL) * rates[0] + PRINTED_SMALL * rates[1] <= 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", library())
+def test_on_a_print_at_98_percent_they_lose_no_more_where_its_length_is_told(name: str):
+    assert losing(name, "Anna", 0.98, told=True)[""] <= 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "lost"), [("integration", 0.5), ("least-radius", 0.05)])
+def test_where_it_is_not_told_they_lose_more(name: str, lost: float):
+    assert losing(name, "Anna", 0.98)[""] > lost
 
 
 def test_it_can_fail_and_a_print_at_98_percent_is_more_than_a_tolerance_allows():

@@ -15,7 +15,7 @@ from graphcam.drafting.ink import Step
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, views_of
-from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
+from graphcam.exercises.definition.exercise import BAR, AskedAnswer, Exercise
 from graphcam.exercises.definition.sizes_of_diagrams import sizes_sentence
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -34,9 +34,12 @@ from graphcam.words import Caption, Words, say, say_in, say_many
 LINE_LENGTH = 96
 """Letters in a line of the task in ``answers.toml``."""
 PRINT_CHECK = say(
-    "Measure the rule of 100 mm on this sheet: if it is shorter than 99 mm, print the sheet again at 100 % of its size."
+    "Measure the rule of 100 mm on this sheet and write its length in mm as {name} in your answers. If it is shorter "
+    "than 90 mm, or than 99 mm and your answers have no {name}, print the sheet again at 100 % of its size.",
+    name=BAR.name,
 )
-"""What tells a print that is too small: right work on one at 99 % keeps its marks, at 98 % it need not."""
+"""What tells a print that is too small: where its size is not told, right work on one at 99 % keeps its marks, at 98 %
+it need not."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """The columns of the key's table, as :func:`key_rows` fills them."""
 
@@ -59,7 +62,7 @@ def answer_file(exercise: Exercise, head: Sequence[str] = ()) -> str:
     """
     how = say("Remove the # before an answer and write the number after the = sign, with a decimal point.")
     lines = [*head, f"# {exercise.title}. {exercise.tell(how)}", ""]
-    for asked in exercise.answers:
+    for asked in _told_by_file(exercise):
         blank = "" if asked.kind == "number" else "[[x, y], [x, y]]"
         lines += [f"# {asked.text} {exercise.tell(_answer_form(asked))}", f"# {asked.name} = {blank}", ""]
     return "\n".join(lines)
@@ -84,15 +87,21 @@ def answer_file_head(variant: Variant, student: Student) -> list[str]:
 def notebook(variant: Variant) -> NotebookNode:
     """A notebook with the task, and a tagged cell of literals for the answers."""
     exercise = variant.exercise
-    asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_answer_form(a))}" for a in exercise.answers)
+    asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_answer_form(a))}" for a in _told_by_file(exercise))
     how = say("Write your answers in the next cell: plain numbers with a decimal point, nothing else.")
-    blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
+    blanks = "\n".join(f"{a.name} = None" for a in _told_by_file(exercise))
     cells = [
         nb.new_markdown_cell(f"# {exercise.title}\n\n{instructions(variant)}", id="task"),
         nb.new_markdown_cell(f"{exercise.tell(how)}\n\n{asked}", id="asked"),
         nb.new_code_cell(blanks, id="answers", metadata={"tags": [ANSWER_TAG]}),
     ]
     return nb.new_notebook(cells=cells, metadata=PYTHON_METADATA)
+
+
+def _told_by_file(exercise: Exercise) -> tuple[AskedAnswer, ...]:
+    """The answers, and how long the rule on the sheet is; one that is photographed has bars of its own."""
+    text = exercise.tell(say("The length of the rule of 100 mm on your worksheet; left out it counts as 100 mm."))
+    return (*exercise.answers, *([] if exercise.paper else [replace(BAR, text=text)]))
 
 
 def worksheet(variant: Variant, student: Student) -> Drawing:

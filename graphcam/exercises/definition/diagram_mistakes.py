@@ -118,7 +118,7 @@ def end_ordinate(chain: Chain) -> Chain:
 )
 def degree_for_radian(name: str) -> Change:
     """The scale of the cam angle in degrees a millimetre in the scales of v and a of the construction of that name."""
-    return lambda chain: _wrong_scales(chain, name, (math.degrees(1), math.degrees(1)))
+    return lambda chain: other_scales(chain, name, (math.degrees(1), math.degrees(1)))
 
 
 @catalogued(
@@ -135,12 +135,12 @@ def pole_forgotten(name: str) -> Change:
         """The chain in which no scale is divided by its pole distance."""
         # Differentiation turns the integrations round: in either the velocity has the second pole.
         first, second = chain.board.poles[::-1]
-        return _wrong_scales(chain, name, (1 / first, 1 / second))
+        return other_scales(chain, name, (1 / first, 1 / second))
 
     return forgotten
 
 
-def _wrong_scales(chain: Chain, name: str, divisors: tuple[float, float]) -> Chain:
+def other_scales(chain: Chain, name: str, divisors: tuple[float, float]) -> Chain:
     """The scale of v divided by the first number, that of a by both."""
     v = rescaled_by(construction_of(chain, name), "v", 1 / divisors[0])
     return chain.continued_from(rescaled_by(v, "a", 1 / divisors[1]))

@@ -148,6 +148,8 @@ MARKS: Mapping[str, tuple[str, ...]] = {
 """How an answer may be drawn, by its kind; the "place" is a coordinate of a point."""
 DEFAULT_MARKS: Mapping[Kind, Drawn] = {"number": "", "points": "cross", "curve": "curve"}
 """How one is drawn where the file does not say."""
+BAR = AskedAnswer("bar", "", "worksheet", reading="bar", unit="mm")
+"""What a file of answers may tell beside them: how long the worksheet's rule of 100 mm is on the student's print."""
 
 
 @dataclass(frozen=True)
@@ -203,6 +205,9 @@ class Exercise:
         doubled = sorted({name for name in names if names.count(name) > 1})
         if doubled:
             raise DesignError("answers", doubled[0], say("named once each"))
+        if BAR.name in map(str.casefold, names):
+            limit = say("another name: with {name} students tell how large their worksheet was printed", name=BAR.name)
+            raise DesignError("answers", BAR.name, limit)
         for asked in self.answers:
             check_choice("kind", asked.kind, ("number", "points", "curve"))
         named = [("marks.caps", name) for name in self.policy.caps]

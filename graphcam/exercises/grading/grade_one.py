@@ -14,7 +14,7 @@ from types import FrameType
 
 from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.course.submissions import HandIn, answers_folder
-from graphcam.exercises.definition.exercise import Answers, Exercise
+from graphcam.exercises.definition.exercise import BAR, Answers, Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
@@ -119,6 +119,10 @@ def grade(assignment: Assignment, submission: Submission) -> GradedSubmission:
         answer_key, text = _answer_key(assignment, submission)
         with _seconds(READING_SECONDS):
             answers = _answers(assignment, submission, answer_key)
+            if BAR.name in answers.values or BAR.name in answers.problems:
+                from graphcam.exercises.key.printed_size import on_true_print
+
+                answers = on_true_print(assignment.exercise, answer_key, answers)
             record = mark(assignment.exercise, answer_key, answers, level=assignment.level)
             return GradedSubmission(replace(record, memory=assignment.memory), text)
     except (Exception, LateError) as error:  # noqa: BLE001
@@ -131,10 +135,8 @@ def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
     exercise, level = assignment.exercise, assignment.level
     answers = tuple(MarkedAnswer(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
     said = (exercise.tell(why),)
-    record = Record(
-        student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False, said, said, level
-    )
-    return replace(record, memory=assignment.memory)
+    of = (student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks)
+    return Record(*of, None, False, said, said, level, memory=assignment.memory)
 
 
 def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:
@@ -165,7 +167,9 @@ def _answers(assignment: Assignment, submission: Submission, answer_key: AnswerK
         return read()
     from graphcam.exercises.running.code_answers import run_notebook
 
-    return read(notebook=partial(run_notebook, assignment.level, [one.name for one in asked], assignment.limits))
+    return read(
+        notebook=partial(run_notebook, assignment.level, [one.name for one in (*asked, BAR)], assignment.limits)
+    )
 
 
 def _paper_areas(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperArea]:

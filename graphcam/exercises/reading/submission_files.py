@@ -10,7 +10,7 @@ import numpy as np
 from graphcam.drafting.ink import Caption, say
 from graphcam.dxf_curves import read_layers
 from graphcam.errors import UnreadableError
-from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Given
+from graphcam.exercises.definition.exercise import BAR, Answers, AskedAnswer, Given
 from graphcam.exercises.reading.answer_tables import csv_values, toml_values
 from graphcam.exercises.reading.answer_values import number, points, short_text
 from graphcam.exercises.reading.drawn_layers import CadDrawing
@@ -93,7 +93,7 @@ def from_files(
     notebook: Reader | None = None,
     rooms: Mapping[str, PaperArea] | None = None,
 ) -> Answers:
-    """What the files answer.
+    """What the files answer, and what they tell as :data:`BAR` beside it.
 
     asked : the answers that there should be
     files : bytes by name, as :func:`read_files` finds them
@@ -101,13 +101,12 @@ def from_files(
     notebook : how the notebook is run; None reads the literals of its answer cell
     rooms : by the answer's name, where on the paper a drawn one can lie
     """
-    asked, notes = list(asked), list(notes)
+    asked, notes = [*asked, BAR], list(notes)
     given: dict[str, list[Any]] = {}
-    notebook = notebook or _table(notebook_values)
-    readers: dict[str, Reader] = {TOML: _table(toml_values), CSV: _table(csv_values), NOTEBOOK: notebook}
-    for name in (name for name in readers if name in files):
+    for name in (name for name in TABLES if name in files):
         try:
-            values, more = readers[name](name, files[name])
+            read = notebook if notebook and name == NOTEBOOK else _table(TABLES[name])
+            values, more = read(name, files[name])
         except UnreadableError as error:
             notes.append(error.why)
             continue
@@ -165,7 +164,7 @@ def _answers(
             *notes,
             say("{name} marks no origin by a POINT on the layer ORIGIN; the drawing's own zero is used", name=DXF),
         ]
-    if not values and not problems:
+    if not (values.keys() | problems.keys()) - {BAR.name}:
         notes = [*notes, NO_ANSWERS_REMARK]
     return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown_name_remark(asked, given)))
 
@@ -215,8 +214,8 @@ def _value(asked: AskedAnswer, value: Any) -> Given:
 
 def _unknown_name_remark(asked: list[AskedAnswer], given: Mapping[str, list[Any]]) -> list[Caption]:
     """A sentence on the first name that was not asked: a slip of the keys loses an answer otherwise."""
-    names = [one.name for one in asked]
-    strange = [name for name in given if name not in names]
+    names = [one.name for one in asked if one is not BAR]
+    strange = [name for name in given if name not in (*names, BAR.name)]
     if not strange or len(given.keys() & set(names)) == len(names):
         return []
     first = short_text(strange[0])
