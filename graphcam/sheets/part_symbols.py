@@ -116,7 +116,12 @@ def _characteristic(kind: str, middle: complex, height: float) -> list[Entity]:
 
 
 def datum_letter(letter: str, height: float) -> PartSymbol:
-    """The letter of a datum in its square."""
+    """The letter of a datum in its square.
+
+    >>> lines, _ = datum_letter("A", 2.5).entities
+    >>> (lines.starts == 2.5 * COMPARTMENT_SIZE * np.array([0, 1, 1 + 1j, 1j])).all()
+    np.True_
+    """
     side = COMPARTMENT_SIZE * height
     corners = (0j, side + 0j, side + 1j * side, 1j * side)
     lines = segments(*zip(corners, (*corners[1:], corners[0]), strict=True))

@@ -81,8 +81,8 @@ def letters_of(text: str, height: float) -> tuple[Letters, ...]:
 
     >>> [(piece.text, piece.height, piece.index) for piece in letters_of("μₐ = 2", 3.5)]
     [('μ', 3.5, False), ('a', 2.5, True), (' = 2', 3.5, False)]
-    >>> [(piece.text, round(piece.start.imag, 2)) for piece in letters_of("20^{+0.021}_{0}", 3.5)]
-    [('20', 0.0), ('+0.021', 2.25), ('0', -1.25)]
+    >>> [(piece.text, round(piece.start.imag, 2), piece.index) for piece in letters_of("20^{+0.021}_{0}", 3.5)]
+    [('20', 0.0, False), ('+0.021', 2.25, True), ('0', -1.25, True)]
     """
     return tuple(_letters_of(text, height))
 

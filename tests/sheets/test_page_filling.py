@@ -18,8 +18,8 @@ from graphcam.drafting.marks import Line, Role
 from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.layout import SheetPart, compose, compose_parts, profile_room
 from graphcam.sheets.model import Box, Drawing, Strokes, Text
-from graphcam.sheets.page_filling import DIAGRAM_GAPS, MAX_EMPTY_SHARE, fill
-from graphcam.sheets.page_space import OpenPage, blank_page, free_rooms
+from graphcam.sheets.page_filling import DIAGRAM_GAPS, MAX_EMPTY_SHARE, fill, min_pages
+from graphcam.sheets.page_space import OpenPage, blank_page, free_rooms, kept_area
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.sheets.tables import Block, Table, table_blocks
@@ -48,6 +48,13 @@ def origins(leaves: list[OpenPage]) -> dict[str, tuple[int, complex]]:
 
 MANY = [view("a", 90, 60, "phi", "a"), view("b", 80, 40, "phi", "s"), view("c", 50, 45, "e", "s"), view("d", 100, 90)]
 EVERY = [Format(*each) for each in SHEETS]
+
+
+@pytest.mark.parametrize("sheet", EVERY, ids=repr)
+def test_views_that_more_than_fill_a_page_need_another(sheet):
+    shown = view("a", 90, 60)
+    on_one = int((sheet.content.area - kept_area(sheet)) / shown.box.area)
+    assert [min_pages(sheet, [shown] * count) for count in (1, on_one, on_one + 1, 2 * on_one + 2)] == [1, 1, 2, 3]
 
 
 @pytest.mark.parametrize("sheet", EVERY, ids=repr)
