@@ -1,6 +1,7 @@
 """The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
 
 import cmath
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Self
@@ -157,5 +158,9 @@ def positions_extent(
     # The arm produced lies beyond B₀, the region below the ends.
     beyond = -arm * (1 + (START_OVERHANG if limits.rest else ARM_OVERHANG_FACTOR))
     found = [cam_centre(arm, distance, radius, flat=True) for radius, distance in centres]
-    places: Points = np.array([0j, *tips.tolist(), beyond, *found])
+    # The lines of the limits go through the highest cam centre on as far down as the lowest, the adopted one, may lie.
+    low = min((centre.imag for centre in found), default=0.0)
+    slopes = sense(rotation) * math.tan(limits.rise), -sense(rotation) * math.tan(limits.return_ or 0.0)
+    ends = [centre + (centre.imag - low) * (slope - 1j) for centre in found for slope in slopes]
+    places: Points = np.array([0j, *tips.tolist(), beyond, *found, *ends])
     return complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))

@@ -39,7 +39,7 @@ def test_built_in_tasks_keep_to_the_goals(name: str) -> None:
 
 
 @pytest.mark.slow
-@over_all("number", range(0, 40, 8))
+@over_all("number", [*range(0, 40, 8), 919])
 def test_random_tasks_keep_to_the_goals(number: int) -> None:
     assert measured(solved(number)).missed() == {}
 
