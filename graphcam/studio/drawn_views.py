@@ -173,7 +173,7 @@ def _room(drawn: Iterable[Drawn]) -> Box:
     room = (box_of(lines) or EMPTY_FRAME).grown(LABEL_ROOM)
     if (largest := max(room.width, room.height)) > MAX_HEIGHT:
         remedy = say("take sizes of which none is so much greater than the others")
-        found = say("{length:.3g} mm", length=largest)
+        found = say("{length:.0f} mm", length=math.ceil(largest))
         raise DesignError("drawing", found, say("at most {most:g} mm wide and high", most=MAX_HEIGHT), remedy)
     return room
 
