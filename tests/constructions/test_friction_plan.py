@@ -17,7 +17,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import BASE, force_plan
 from graphcam.constructions.friction_plan import friction_plan
 from graphcam.drafting.acts import Act
-from graphcam.drafting.marks import Arrow, Role
+from graphcam.drafting.marks import Arrow, Label, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 
@@ -130,6 +130,9 @@ def test_the_arrows_close_and_every_number_is_a_length_times_the_scale(rotation)
         # Square to one another; the friction points in the cam's sense from the normal.
         turn = cmath.phase((friction.end - friction.start) / (normal.end - normal.start))
         assert turn == pytest.approx(math.pi / 2 if rotation == "ccw" else -math.pi / 2)
+        letters = {str(mark.text): mark.at for mark in steps[-1].marks if isinstance(mark, Label)}
+        arrows = {"F": force, "R": reaction, "N": normal, "T": friction}
+        assert letters == pytest.approx({name: (each.start + each.end) / 2 for name, each in arrows.items()})
         said = str(steps[-1].caption)
         told = [[float(each) for each in row] for row in re.findall(r"([\d.]+) mm × ([\d.]+) = ([\d.]+) N", said)]
         names = ("contact", "reaction", "normal", "contact_friction", "along", "side")

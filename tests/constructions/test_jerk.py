@@ -36,6 +36,13 @@ def chain_of(motion, divisions=12, pole=10.0, pencil=None, **changes) -> Chain:
     return Chain(board_of(motion, divisions=divisions, jerk_pole=pole, **changes), pencil or Pencil())
 
 
+def test_the_formula_of_its_scale_names_the_third_pole():
+    drawn = chain_of(coursework_motion("cycloidal"))["jerk"]
+    (formula,) = drawn.meaning.formulas
+    (told,) = formula.values(drawn)
+    assert (told["name"], told["source"], told["pole"], told["distance"]) == ("j", "a", "3", 10.0)
+
+
 def exact(chain: Chain):
     """The jerk in the middle of every part, of the law itself."""
     stations, left = chain.board.stations, chain.board.stations.left

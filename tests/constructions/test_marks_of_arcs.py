@@ -392,15 +392,18 @@ def test_the_roller_keeps_to_arcs_about_the_same_centres(name):
 
 
 @over_all("name", ["case 2", "clockwise"])
-def test_the_middle_arc_of_the_path_passes_through_g_and_the_last_one_through_d(name):
+def test_the_arcs_of_the_path_pass_through_a_through_g_and_through_d(name):
     """Where the lengths that were set off have errors, the two ends of an arc lie at different distances."""
     data, changes = BOARDS[name]
     errs = ArcChain(board_of(data, **changes), gc.Pencil(dividers=0.2, seed=8, only=frozenset({"lay off"})))
     step = errs["arc_roller"].steps()[0]
-    (lines,), (_, middle, last) = all_of(step, Segments), all_of(step, Arc)[-8:-5]
+    (lines,), (first, middle, last) = all_of(step, Segments), all_of(step, Arc)[-8:-5]
     to_g, to_f, to_d = np.abs(lines.starts - lines.ends)
     assert (middle.radius, last.radius) == (pytest.approx(to_g, abs=1e-9), pytest.approx(to_d, abs=1e-9))
     assert abs(to_f - middle.radius) > 0.01
+    a, g = errs["arc_roller"].points["trace"][:2]
+    assert first.radius == pytest.approx(abs(a - first.centre), abs=1e-9)
+    assert abs(abs(g - first.centre) - first.radius) > 0.01
 
 
 @PERFECT

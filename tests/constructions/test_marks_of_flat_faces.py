@@ -516,3 +516,13 @@ def test_every_mark_but_an_axis_names_its_act(name):
         for mark in step.own_marks:
             if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE):
                 assert isinstance(mark.of, Act), (key, title, mark)
+
+
+@EVERY
+def test_the_face_reaches_to_the_extreme_velocities_by_the_sense_of_the_cam(name):
+    inverted = chain(name)["inversion"]
+    told = [values for formula in inverted.meaning.formulas if formula.values for values in formula.values(inverted)]
+    (reach,) = (values for values in told if "left_of" in values)
+    left, right = reach["left_of"], reach["right_of"]
+    assert (r"\max" in right, r"\min" in left) == (inverted.givens.rotation == "ccw",) * 2
+    assert (r"\max" in left, r"\min" in right) == (inverted.givens.rotation == "cw",) * 2
