@@ -3,6 +3,7 @@
 import re
 from contextlib import suppress
 from dataclasses import replace
+from functools import lru_cache
 from html import escape
 from importlib import resources
 
@@ -191,10 +192,11 @@ def _check_enlarged_radius(solution: Solution) -> None:
     raise DesignError(field, say("{length:g} mm", length=size), limit, remedy)
 
 
+@lru_cache(maxsize=2)
 def contents_of(solution: AnySolution, *, per_construction: bool = False) -> Contents:
     """The contents of the sheets of a solution, in the largest standard scales for which their pages have room.
 
-    Its solution is drawn in these.
+    Its solution is drawn in these.  The last are kept, for the command line and the files ask for the same.
 
     Raises
     ------
