@@ -195,6 +195,7 @@ def poles_swapped(name: str) -> Change:
     """The diagrams of the construction of that name drawn with each other's pole, and read with the scales given."""
 
     def swapped(chain: Chain) -> Chain:
+        """The chain with both diagrams so drawn."""
         drawn = construction_of(redrawn(chain, replace(chain.board, poles=chain.board.poles[::-1])), name)
         for reading in ("v", "a"):
             given = np.asarray(construction_of(chain, name).readings[reading].scale)
@@ -212,6 +213,7 @@ def station_too_late(name: str) -> Change:
     """The ordinate of the next station at every station, in the diagrams of the construction of that name."""
 
     def late(chain: Chain) -> Chain:
+        """The chain with both diagrams so read."""
         drawn = construction_of(chain, name)
         read = ("s", "v") if name == "integration" else ("rise", "v")
         for reading in read:

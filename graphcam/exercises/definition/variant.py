@@ -69,6 +69,7 @@ def _filled_template(node: Any, parameters: Mapping[str, Value], path: str) -> A
         return node
 
     def value_of(name: str) -> Value:
+        """The value of a parameter, which must be one of the variant."""
         if name not in parameters:
             raise TaskError(path, "task", node, say("a parameter in braces"), nearest_word_remedy(name, parameters))
         return parameters[name]

@@ -60,6 +60,7 @@ def marking_speed(exercise: Exercise, timer: Timer | None = None) -> MarkingSpee
     careful, wrong = simulated(exercise)
 
     def graded(submissions: list[Submission]) -> Callable[[], object]:
+        """What grades submissions, one after the other."""
         return lambda: [grade(assignment, submission) for submission in submissions]
 
     speeds = (len(each) / timer.seconds(graded(each)) for each in (careful, wrong))

@@ -191,6 +191,7 @@ def _seconds(seconds: float) -> Generator[None]:
         return
 
     def late(_: int, __: FrameType | None) -> None:
+        """End what runs, as a signal that has come."""
         raise LateError(seconds)
 
     if not hasattr(signal, "setitimer"):
@@ -212,6 +213,7 @@ def _time_limit_by_thread(seconds: float, late: Callable[[int, FrameType | None]
     until, over = time.process_time() + seconds, threading.Event()
 
     def watch() -> None:
+        """Wait until the time is used up, or the work is over."""
         while not over.wait(CHECK_INTERVAL):
             if time.process_time() > until:
                 _thread.interrupt_main(signal.SIGTERM)

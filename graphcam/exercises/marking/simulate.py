@@ -134,9 +134,11 @@ class _Tally:
     named: Counter[str] = field(default_factory=Counter[str])
 
     def mark(self, exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> None:
+        """Mark and count what every hand of a chain answers."""
         self.mark_answers(exercise, answer_key, answers_of(exercise, chain), chain.pencil.samples or 0)
 
     def mark_answers(self, exercise: Exercise, answer_key: AnswerKey, drawn: Drawn, hands: int) -> None:
+        """Mark and count the answers of so many hands."""
         given = (submission(exercise, drawn, row) for row in range(hands))
         records = [mark(exercise, answer_key, answers) for answers in given]
         self.hands += len(records)
