@@ -110,11 +110,8 @@ def drawn_view(
     )
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
-    former = held.places if held else {}
-    if held is None:
-        places: list[int | None] = [*places_of(drawn, [], _room(drawn))]
-    else:
-        places = held_places(names, drawn, former)
+    former, room = held.places if held else {}, _room(drawn)
+    places: list[int | None] = [*places_of(drawn, [], room)] if held is None else held_places(names, drawn, former)
     finished = shading_parted(with_texts(drawn, places))
     frame = held.frame if held else astuple(_frame(chain(*finished)))
     labels = label_places(names, drawn, places, former)

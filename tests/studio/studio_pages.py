@@ -87,17 +87,21 @@ class Engine:
         return Handler
 
 
+AT_REST = """async () => {
+  const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  const isThere = () => window.studio && document.querySelector("#drawing [data-group], #scene .cam");
+  const rests = () => isThere() && studio.isAtRest() && !document.body.classList.contains("held");
+  // What a new size of a pane calls for comes with the next frame.
+  for (let quiet = 0; quiet < 3; quiet = rests() ? quiet + 1 : 0) await frame();
+  return true;
+}"""
+"""Of a page: a picture is there, no hand is down, nothing is asked or waits to be, and nothing glides."""
+
+
 def settled(page: Page) -> None:
     """Wait until a picture is there, nothing is asked, and nothing moves."""
-    page.wait_for_function(
-        """() => window.studio && document.querySelector("#drawing [data-group], #scene .cam") && studio.quiet()
-        && !document.body.classList.contains("held")"""
-    )
-    # The small views are asked for a while after the last change, and a frame glides.
-    page.wait_for_timeout(350)
-    page.wait_for_function("() => studio.quiet()")
-    page.wait_for_timeout(60)
-    page.wait_for_function("() => studio.quiet()")
+    page.wait_for_function("() => window.studio")
+    page.evaluate(AT_REST)
 
 
 def hand(page: Page, name: str) -> Locator:

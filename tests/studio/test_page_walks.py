@@ -9,5 +9,5 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.mark.parametrize("seed", range(1, 6))
-def test_form_picture_and_address_agree_at_every_rest(opened, seed):
-    assert walk(opened(), seed, 8) == []
+def test_form_picture_and_address_agree_at_every_rest(opened, served, seed):
+    assert walk(opened(), served.asked, seed, 8) == []

@@ -6,11 +6,13 @@ python tests/studio/walks.py --walks 20 --operations 40 --seed 1 [--firefox]
 from __future__ import annotations
 
 import argparse
+import json
 import random
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, cast
@@ -112,22 +114,41 @@ PANES = """() => studio.state.get().board ? [] : studio.panes.flatMap(({ names, 
 RESULT = re.compile(r'class="line result"[^>]* d="([^"]*)"')
 
 
-def contradictions(page: Page) -> list[str]:
-    """What disagrees at rest; of what is refused there is a message."""
+@lru_cache(maxsize=256)
+def answer_to(request: str) -> Any:
+    """The engine's answer to a request as text; of what most operations leave as it is it is known."""
+    return answer(json.loads(request))
+
+
+def drawn_again(task: Mapping[str, Any], asked: Sequence[Mapping[str, Any]], shown: Collection[Any]) -> Any:
+    """The views that are shown, as the page has asked for them last: their size says how large their letters are."""
+    for request in reversed(asked):
+        views = [
+            {**view, "have": {}} for view in request.get("views", ()) if (view["name"], view.get("plain")) in shown
+        ]
+        if shown and len(views) == len(shown):
+            anew = [{**view, "have": {}} for view in views]
+            return answer_to(json.dumps({"task": task, "views": anew, "told": True})).get("views", [])
+    return []
+
+
+def contradictions(page: Page, asked: Sequence[Mapping[str, Any]]) -> list[str]:
+    """What disagrees at rest; of what is refused there is a message.
+
+    asked : what the page has asked of the engine: a view is drawn again with letters of the same size
+    """
     task, found = task_of(page), list[str]()
-    engine = answer({"task": task, "views": [], "told": True})
+    engine = answer_to(json.dumps({"task": task, "views": [], "told": True}))
     if not engine["ok"]:
         return [f"the state cannot be drawn: {engine['error']['message']}"]
     if page.evaluate("() => studio.shown.sizes") != engine["sizes"]:
         found.append("the picture is of another cam")
-    for name, plain, svg in page.evaluate(PANES):
-        asked = answer({"task": task, "views": [{"name": name, "px_per_mm": 1.0, "plain": plain}], "told": True})
-        if not asked["ok"]:
-            found.append(f"a pane shows {name}, which cannot be drawn: {asked['error']['message']}")
-            continue
-        (view,) = asked["views"]
+    shown = {(name, plain): svg for name, plain, svg in page.evaluate(PANES)}
+    for view in drawn_again(task, asked, set(shown)):
+        svg = shown.pop((view["name"], view["plain"]), "")
         if RESULT.findall(svg) != RESULT.findall("".join(step["svg"] for step in view["steps"].values())):
-            found.append(f"a pane shows {name} of another cam")
+            found.append(f"a pane shows {view['name']} of another cam")
+    found += [f"a pane shows {name}, which cannot be drawn" for name, _ in shown]
     if page.evaluate(READ) != task:
         found.append("the address is of another cam")
     refused = page.evaluate("() => [...document.querySelectorAll('.error')].some((each) => each.checkVisibility())")
@@ -145,13 +166,16 @@ def contradictions(page: Page) -> list[str]:
     return found
 
 
-def walk(page: Page, seed: int, operations: int) -> list[str]:
-    """The contradictions of a walk, with what was done before the first."""
+def walk(page: Page, asked: Sequence[Mapping[str, Any]], seed: int, operations: int) -> list[str]:
+    """The contradictions of a walk, with what was done before the first.
+
+    asked : what the page has asked of the engine, which becomes longer
+    """
     numbers, done = random.Random(seed), list[str]()
     for _ in range(operations):
         done.append(numbers.choice(OPERATIONS)(page, numbers))
         settled(page)
-        if found := contradictions(page):
+        if found := contradictions(page, asked):
             return [f"seed {seed}, {' | '.join(done[-4:])}: {each}" for each in found]
     return []
 
@@ -188,7 +212,7 @@ def main() -> None:
             page = opened()
             page.goto(engine.url)
             settled(page)
-            found = walk(page, seed, asked.operations)
+            found = walk(page, engine.asked, seed, asked.operations)
             stuck += bool(found)
             sys.stdout.write("\n".join(found or [f"seed {seed}: right"]) + "\n")
             sys.stdout.flush()

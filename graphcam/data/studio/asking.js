@@ -157,12 +157,13 @@ function askingOf(page) {
   // --- at rest: the address, the small views, the pinned cam ------------------------------------------------------------------
 
   function rest() {
-    round += 1;
+    const own = ++round;
     clearTimeout(resting);
     const later = () => {
-      if (page.hand) return;
-      if (queue.busy()) resting = setTimeout(later, REST);
-      else drawSmall(round);
+      // A hand that lets go asks, and so comes back here.
+      if (page.hand) resting = 0;
+      else if (queue.busy()) resting = setTimeout(later, REST);
+      else drawSmall(own).finally(() => own === round && (resting = 0));
     };
     resting = setTimeout(later, REST);
   }
@@ -218,5 +219,5 @@ function askingOf(page) {
     } catch { /* a page in a frame may not */ }
   }
 
-  return { ask, take, rest, writeAddress, viewsAsked };
+  return { ask, take, rest, writeAddress, viewsAsked, isResting: () => !resting };
 }

@@ -150,15 +150,20 @@ function stageOf(at) {
     for (const moved of watching) moved();
   }
 
+  function stopGliding() {
+    cancelAnimationFrame(gliding);
+    gliding = 0;
+  }
+
   function glideTo(frame) {
     const from = frames.get(shown), name = shown, start = performance.now();
-    cancelAnimationFrame(gliding);
+    stopGliding();
     if (!from || calm.matches) return setFrame(frame);
     const tick = (now) => {
-      if (shown !== name) return;
+      if (shown !== name) return stopGliding();
       const part = Math.min(1, Math.max(0, (now - start) / GLIDE)), eased = 1 - (1 - part) ** 3;
       setFrame(from.map((x, k) => x + (frame[k] - x) * eased));
-      if (part < 1) gliding = requestAnimationFrame(tick);
+      gliding = part < 1 ? requestAnimationFrame(tick) : 0;
     };
     gliding = requestAnimationFrame(tick);
   }
@@ -168,7 +173,7 @@ function stageOf(at) {
   function zoomAbout(factor, { x, y }) {
     const [left, top, wide, high] = frames.get(shown), whole = fit(wholes.get(shown)).scale, { scale } = fit();
     const by = Math.min(factor, CLOSEST * whole / scale);
-    cancelAnimationFrame(gliding);
+    stopGliding();
     if (factor > 1) details.add(shown);
     if (factor < 1 && scale * by <= whole) {
       if (details.delete(shown)) setFrame(wholes.get(shown));
@@ -244,6 +249,7 @@ function stageOf(at) {
     scale: (picture) => fit(firstOf(picture)).scale,
     frame: () => frames.get(shown),
     whole: () => wholes.get(shown),
+    isStill: () => !gliding,
     forget() {
       frames.clear();
       details.clear();

@@ -199,8 +199,9 @@
       page.guess = guess;
       page.showHands();
     },
-    // Nothing is asked, and nothing waits.
     quiet: () => !page.queue.busy(),
+    // Nothing is asked, nothing waits to be, and nothing glides.
+    isAtRest: () => !page.queue.busy() && page.isResting() && panes.every(({ stage }) => stage.isStill()),
   };
   window.studio = studio;
 
