@@ -55,14 +55,16 @@ UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
 UNUSED_MODULES = (
     *("_multiarray_tests.", "_simd.", "_umath_tests.", "_rational_tests.", "_struct_ufunc_tests.", "_operand"),
     *("lapack_lite.", "mtrand.", "_mt19937.", "_philox.", "_sfc64.", "_pickle."),
+    *("hermite.", "hermite_e.", "laguerre."),
 )
 """Of NumPy what is for tests, compilers, type checkers or installers, and what no drawing needs."""
 OTHER_MODULES: Mapping[str, bytes] = {
     **dict.fromkeys(("numpy/_core/_add_newdocs.py", "numpy/_core/_add_newdocs_scalars.py"), b""),
+    "numpy/polynomial/__init__.py": b"from . import chebyshev, legendre, polynomial\n",
     "numpy/random/__init__.py": b"from ._generator import Generator, default_rng\n",
 }
 """What stands in modules of NumPy in place of what they have: those that only say what it does are empty, and of the
-random numbers there is one kind."""
+random numbers and of polynomials there are the kinds that a cam needs."""
 UNUSED_LIBRARIES = frozenset(
     {
         *("multiprocessing", "unittest", "xml", "xmlrpc", "wsgiref", "pydoc.py", "doctest.py", "pdb.py", "bdb.py"),

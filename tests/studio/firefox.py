@@ -30,6 +30,7 @@ class Firefox:
         self.number = 0
         self._message()
         self.do("WebDriver:NewSession")
+        self.do("WebDriver:SetTimeouts", script=1000 * STARTED_IN)
 
     def _message(self) -> Any:
         digits = b""

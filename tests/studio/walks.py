@@ -108,8 +108,9 @@ OPERATIONS = typed, typed, typed, chosen, pulled, pulled, pulled, pressed, press
 READ = "async () => (await addressOf(studio.config).read(location.hash))?.task ?? null"
 FORM = """() => [...document.querySelectorAll("#form .size > .row input[type=text]")]
     .filter((one) => !one.hidden && !one.closest(".phases")).map((one) => [one.dataset.key, typedNumber(one.value)])"""
+# A plan goes on from station to station while the cam turns.
 PANES = """() => studio.state.get().board ? [] : studio.panes.flatMap(({ names, gallery }) => names()
-    .filter((name) => name !== "mechanism").map((name) => [name, gallery.view(name)]).map(([name, view]) => [
+    .filter((name) => name !== "mechanism" && !(name === "plan" && document.body.matches(".turning"))).map((name) => [name, gallery.view(name)]).map(([name, view]) => [
     name, Boolean(view?.plain), view ? view.order.map((id) => view.steps[id].svg).join("") : ""]))"""
 RESULT = re.compile(r'class="line result"[^>]* d="([^"]*)"')
 
@@ -128,7 +129,8 @@ def drawn_again(task: Mapping[str, Any], asked: Sequence[Mapping[str, Any]], sho
         ]
         if shown and len(views) == len(shown):
             anew = [{**view, "have": {}} for view in views]
-            return answer_to(json.dumps({"task": task, "views": anew, "told": True})).get("views", [])
+            place = {name: request.get(name) for name in ("phi", "station")}
+            return answer_to(json.dumps({"task": task, "views": anew, "told": True, **place})).get("views", [])
     return []
 
 
