@@ -110,7 +110,8 @@ FORM = """() => [...document.querySelectorAll("#form .size > .row input[type=tex
     .filter((one) => !one.hidden && !one.closest(".phases")).map((one) => [one.dataset.key, typedNumber(one.value)])"""
 # A plan goes on from station to station while the cam turns.
 PANES = """() => studio.state.get().board ? [] : studio.panes.flatMap(({ names, gallery }) => names()
-    .filter((name) => name !== "mechanism" && !(name === "plan" && document.body.matches(".turning"))).map((name) => [name, gallery.view(name)]).map(([name, view]) => [
+    .filter((name) => name !== "mechanism" && !(name === "plan" && document.body.matches(".turning")))
+    .map((name) => [name, gallery.view(name)]).map(([name, view]) => [
     name, Boolean(view?.plain), view ? view.order.map((id) => view.steps[id].svg).join("") : ""]))"""
 RESULT = re.compile(r'class="line result"[^>]* d="([^"]*)"')
 
