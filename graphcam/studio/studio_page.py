@@ -165,8 +165,8 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
 SHARED_SCRIPT_FILES = ("gestures.js", "board.js", "lights.js", "mechanism.js")
 SCRIPT_FILES = (
     "elements.js", "wire.js", "state.js", "address.js", "stage.js", "handles.js", "phases.js", "sizes.js", "panel.js",
-    "what_if.js", "strip.js", "walk.js", "cam_angle.js", "asking.js", "changing.js", "picture.js", "files.js",
-    "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
+    "what_if.js", "strip.js", "walk.js", "cam_angle.js", "asking.js", "following.js", "changing.js", "picture.js",
+    "files.js", "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
 )  # fmt: skip
 """The scripts in order; later ones use functions of earlier ones, and a mode's script is left out where none is."""
 CONTENT_POLICY = (

@@ -54,8 +54,15 @@ STREAM = """async ([from, by, moves, apart]) => {
   const slider = document.querySelector("[data-key='follower.offset/range']");
   const wait = (time) => new Promise((done) => setTimeout(done, time)), begin = performance.now();
   const steps = document.getElementById("steps");
-  let pictures = 0;
-  new MutationObserver(() => { pictures += 1; }).observe(steps, { childList: true, subtree: true });
+  let pictures = 0, isChanged = false, isOver = false;
+  const watched = { childList: true, subtree: true, attributes: true };
+  new MutationObserver(() => { isChanged = true; }).observe(steps, watched);
+  const frame = () => {
+    pictures += isChanged;
+    isChanged = false;
+    if (!isOver) requestAnimationFrame(frame);
+  };
+  requestAnimationFrame(frame);
   dispatchEvent(new PointerEvent("pointerdown"));
   for (let k = 0; k < moves; k += 1) {
     slider.value = from + by * (k + 1);
@@ -64,9 +71,10 @@ STREAM = """async ([from, by, moves, apart]) => {
   }
   while (!studio.quiet()) await wait(1);
   dispatchEvent(new PointerEvent("pointerup"));
+  isOver = true;
   return pictures;
 }"""
-"""A hand that moves without waiting: how many pictures it sees."""
+"""A hand that moves without waiting: in how many frames it sees another picture, drawn anew or gone along."""
 STREAMED, APART = 48, 16
 """So many moves, so many milliseconds apart."""
 

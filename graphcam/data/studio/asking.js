@@ -16,13 +16,17 @@ function askingOf(page) {
   // --- the picture -----------------------------------------------------------------------------------------------------------
 
   // Pixels for a millimetre; before the first answer about as many as most views get.
-  function scaleOf({ at, stage, usual }, picture) {
-    const [wide, high] = usual, { clientWidth, clientHeight } = at("canvas");
-    return Math.min(MOST_SCALE, picture ? stage.scale(picture) : Math.min(clientWidth / wide, clientHeight / high) || 1.5);
+  function scaleOf({ stage, usual }, picture) {
+    const scale = picture ? stage.scale(picture) : Math.min(...stage.size().map((each, k) => each / usual[k]));
+    // A pane that is not shown yet has no size.
+    return scale < 0.01 ? 1.5 : Math.min(MOST_SCALE, scale);
   }
 
   // Letters grow with the stage: on a phone they can just be read, on a projector from afar [pixels].
-  const letterHeight = ({ at, letters }) => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / letters, at("canvas").clientHeight / 36)));
+  function letterHeight({ stage, letters }) {
+    const [wide, high] = stage.size();
+    return Math.round(Math.max(10, Math.min(24, wide / letters, high / 36)));
+  }
 
   // Several views in one pane stand there without their construction.
   function viewsAsked(aim = {}) {
@@ -54,10 +58,12 @@ function askingOf(page) {
     const request = () => {
       question.hand = wanted ? null : page.hand;
       question.aim = wanted ? wanted.aim() : page.hand ? page.aimOf(page.hand) : {};
+      question.place = question.hand && page.placeOf(question.hand);
       question.request = pictureRequest(question.aim, question.hand);
       return question.request;
     };
     rest();
+    if (page.hand && !wanted) page.goAlong();
     return queue[wanted ? "change" : "picture"](request, (answer) => take(answer, question));
   }
 
@@ -84,6 +90,7 @@ function askingOf(page) {
     if (request.form) showForm(answer);
     if (request.told) page.showAll();
     else page.showAnswer();
+    if (hand) page.arrived(hand, question.place);
     if (request.values && !request.told) page.showValueTables();
     page.answered?.();
     askAgain(request.views);
@@ -115,8 +122,8 @@ function askingOf(page) {
 
   // The first answer says which views there are, and a later one that there are others; and a frame may turn out another one than was thought.
   function askAgain(asked) {
-    const wanted = viewsAsked(), isNew = ({ name, pane }) => !asked.some((each) => each.name === name && each.pane === pane);
     if (page.hand) return;
+    const wanted = viewsAsked(), isNew = ({ name, pane }) => !asked.some((each) => each.name === name && each.pane === pane);
     for (const view of wanted) {
       const before = asked.find(({ name, pane }) => name === view.name && pane === view.pane), ratio = view.px_per_mm / (before?.px_per_mm ?? NaN);
       const frame = `${view.name} ${page.picture(page.panes[view.pane])?.frame}`;
@@ -134,6 +141,7 @@ function askingOf(page) {
     if (!beside) page.announce(said);
     page.failed = beside ? word("not_drawn") : said;
     page.shown.error = answer.error;
+    page.goBack();
     page.showAll();
     wanted?.done?.(false);
     rest();

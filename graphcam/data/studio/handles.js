@@ -82,8 +82,8 @@ function handsOf(at, stage, acts) {
   const current = (id) => handles.find((one) => one.id === id);
   const shapeOf = (handle) => JSON.stringify([handle.axes.map((axis) => axis.path), handle.name, handle.letter]);
 
-  function place(handle) {
-    const knob = knobs.get(handle.id), [x, y] = stage.toScreen(handle.at);
+  function place(handle, [x, y] = stage.toScreen(handle.at)) {
+    const knob = knobs.get(handle.id);
     knob.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     const ways = knob.querySelector(".ways");
     ways.setAttribute("d", waysOf(handle));
@@ -106,12 +106,17 @@ function handsOf(at, stage, acts) {
       knobs.delete(id);
     }
     for (const handle of found) {
-      if (!knobs.has(handle.id)) {
-        knobs.set(handle.id, knobOf(handle));
-        knobs.get(handle.id).shape = shapeOf(handle);
-      }
-      place(handle);
+      if (knobs.has(handle.id)) continue;
+      knobs.set(handle.id, knobOf(handle));
+      knobs.get(handle.id).shape = shapeOf(handle);
     }
+    placeAll();
+  }
+
+  // All places are reckoned before one is written: each writing lets the browser lay out the page anew for the next.
+  function placeAll() {
+    const there = handles.filter(({ id }) => knobs.has(id)), places = there.map(({ at: mark }) => stage.toScreen(mark));
+    there.forEach((handle, k) => place(handle, places[k]));
     chip();
   }
 
@@ -191,10 +196,7 @@ function handsOf(at, stage, acts) {
     knob.querySelectorAll("input")[k].focus({ preventScroll: true });
   }
 
-  stage.onMove(() => {
-    for (const handle of handles) if (knobs.has(handle.id)) place(handle);
-    chip();
-  });
+  stage.onMove(placeAll);
 
   return {
     show, cancel: () => up(null, true), held: () => held, away: (yes) => at("hands").classList.toggle("away", yes),

@@ -74,8 +74,8 @@ function pictureOf(page) {
     if (!k) pane.stage.show(current, now().part);
   }
 
-  function showHands() {
-    const found = now().board || now().inert ? [] : last.handles || [];
+  function showHands(handles = last.handles || []) {
+    const found = now().board || now().inert ? [] : handles;
     for (const pane of page.panes) {
       const wanted = [...page.handlesIn(pane, found), ...(page.guess && pane === page.panes[0] ? [page.guess.handle] : [])];
       pane.hands.show(wanted);

@@ -42,10 +42,12 @@ function fillSteps(parent, view, wanted = () => true) {
   const groups = view.order.filter(wanted).map((id) => {
     const step = view.steps[id];
     const group = old.get(id) || drawSvg("g", "step", { "data-group": id }, parent);
-    if (group.shown !== step.svg) {
+    group.before = group.shown;
+    // A hand may have moved what was drawn.
+    if (group.shown !== step.svg || group.isMoved) {
       // The engine's own drawing: it escapes what a user wrote.
       group.innerHTML = step.svg;
-      group.shown = step.svg;
+      Object.assign(group, { shown: step.svg, isMoved: false });
       changed += 1;
     }
     if (group.down !== step.down) group.setAttribute("transform", `translate(0 ${group.down = step.down})`);
@@ -117,10 +119,15 @@ const mustMove = (shown, wanted) =>
 function stageOf(at) {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const frames = new Map(), wholes = new Map(), firsts = new Map(), details = new Set(), watching = [];
-  let shown = null, filled = null, board = null, gliding = 0, several = 1;
+  let shown = null, filled = null, board = null, gliding = 0, several = 1, kept = null;
 
   const svg = () => (shown === "mechanism" ? at("scene") : at("drawing"));
-  const size = () => [at("canvas").clientWidth || 1, at("canvas").clientHeight || 1];
+  // To ask lays the page out; while a hand is down the size stays.
+  const measured = () => {
+    const { clientWidth, clientHeight, offsetLeft, offsetTop, clientLeft, clientTop } = at("canvas");
+    return { size: [clientWidth || 1, clientHeight || 1], inset: [offsetLeft + clientLeft, offsetTop + clientTop] };
+  };
+  const size = () => (kept || measured()).size;
 
   // Pixels for a millimetre, and where the upper left corner of the frame stands.
   function fit(frame = frames.get(shown)) {
@@ -128,10 +135,9 @@ function stageOf(at) {
     const [wide, high] = size(), [x, y, w, h] = frame, scale = Math.min(wide / w, high / h);
     return { scale, left: (wide - scale * w) / 2 - scale * x, top: (high - scale * h) / 2 - scale * y };
   }
-  const inset = () => [at("canvas").offsetLeft + at("canvas").clientLeft, at("canvas").offsetTop + at("canvas").clientTop];
 
   function toScreen([x, y]) {
-    const { scale, left, top } = fit(), [dx, dy] = inset();
+    const { scale, left, top } = fit(), [dx, dy] = (kept || measured()).inset;
     return [left + scale * x + dx, top + scale * y + dy];
   }
   function toDrawing(clientX, clientY) {
@@ -203,6 +209,7 @@ function stageOf(at) {
   // A view through its frame, which stays while a hand is down, and else as long as it serves.
   function look(picture, { held = false, anew = false } = {}) {
     const { name, frame: wanted, ends } = picture, other = shown !== name;
+    kept = held ? kept || measured() : null;
     shown = name;
     several = ends?.length || 1;
     wholes.set(name, wanted);
@@ -239,10 +246,13 @@ function stageOf(at) {
   }
 
   const lookAnew = () => look({ name: shown, frame: wholes.get(shown) }, { anew: true });
-  const resized = () => shown && frames.get(shown) && setFrame(frames.get(shown));
+  const resized = () => {
+    kept = null;
+    if (frames.get(shown)) setFrame(frames.get(shown));
+  };
 
   return {
-    look, lookAnew, fill, pin, toScreen, toDrawing, resized, zoomAbout, zoomFromMiddle, shift,
+    size, look, lookAnew, fill, pin, toScreen, toDrawing, resized, zoomAbout, zoomFromMiddle, shift,
     show: (current, part) => board?.show(current, part),
     point: (names) => board?.point(names),
     onMove: (moved) => watching.push(moved),

@@ -52,7 +52,7 @@
     showValues: valuesPanelOf(at("panel-values"), words),
     whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, shown: () => page.last, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
   });
-  Object.assign(page, camAngleOf(page), askingOf(page));
+  Object.assign(page, camAngleOf(page), askingOf(page), followingOf(page));
   Object.assign(page, changingOf(page));
   const moved = (changes, byKey = false) => Object.keys(changes)[0]?.startsWith("guess") ? page.guess.change(changes) : page.changeAny(changes, byKey);
   for (const pane of panes) {
