@@ -124,13 +124,12 @@ def answer_to(request: str) -> Any:
 
 def drawn_again(task: Mapping[str, Any], asked: Sequence[Mapping[str, Any]], shown: Collection[Any]) -> Any:
     """The views that are shown, as the page has asked for them last: their size says how large their letters are."""
-    for request in reversed(asked):
-        views = [
-            {**view, "have": {}} for view in request.get("views", ()) if (view["name"], view.get("plain")) in shown
-        ]
+    # A pinned cam is asked for without a station.
+    for request in (each for each in reversed(asked) if "station" in each):
+        views = [view for view in request["views"] if (view["name"], view.get("plain")) in shown]
         if shown and len(views) == len(shown):
             anew = [{**view, "have": {}} for view in views]
-            place = {name: request.get(name) for name in ("phi", "station")}
+            place = {name: request[name] for name in ("phi", "station")}
             return answer_to(json.dumps({"task": task, "views": anew, "told": True, **place})).get("views", [])
     return []
 
