@@ -1,5 +1,7 @@
-// Elements of the page: texts go in as texts, with their indices set lower.
+// Elements of the page are rendered by lit-html from what they show; texts go in with their indices set lower.
 "use strict";
+
+const { html, svg, render, nothing, live, repeat } = lit;
 
 function make(kind, attributes = {}, ...inside) {
   const element = document.createElement(kind);
@@ -14,19 +16,20 @@ function make(kind, attributes = {}, ...inside) {
 }
 
 // φ_у and φ_д.с have indices that Unicode lacks the letters for.
+const INDEXED = /(?<![\p{L}\p{N}_])([Α-Ωα-ω])_([\p{L}\p{N}]+(?:\.[\p{L}\p{N}]+)*)/u;
+
+// A text between its indices: of three pieces the last is one.
+const letters = (text) =>
+  String(text).split(INDEXED).map((piece, k) => (k % 3 === 2 ? html`<sub>${piece.normalize("NFKC")}</sub>` : piece));
+
 function lettered(element, text) {
-  element.replaceChildren();
-  let end = 0;
-  for (const found of String(text).matchAll(/(?<![\p{L}\p{N}_])([Α-Ωα-ω])_([\p{L}\p{N}]+(?:\.[\p{L}\p{N}]+)*)/gu)) {
-    element.append(text.slice(end, found.index), found[1]);
-    const index = document.createElement("sub");
-    index.textContent = found[2].normalize("NFKC");
-    element.append(index);
-    end = found.index + found[0].length;
-  }
-  element.append(String(text).slice(end));
+  render(letters(text), element);
   return element;
 }
+
+// What a list offers, [[value, text], ...].
+const options = (all, chosen) => all.map(([value, text]) =>
+  html`<option value=${value} .selected=${value === chosen}>${letters(text)}</option>`);
 
 // A number as short as it is exact to a hundredth of its step, with the minus sign of print.
 function shortNumber(value, decimal = ".") {
