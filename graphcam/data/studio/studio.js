@@ -169,15 +169,19 @@
   function setMode(name) {
     if (name === now().mode || !isOpen(name)) return;
     page.still();
-    studioModes[now().mode]?.leave(studio);
-    studio.panel.card(null);
+    studioModes[now().mode]?.leave();
+    studio.panel.card(nothing);
     // What the person was at before is given back.
     const { task, name: called, view, step, part, phi, own } = now(), mine = own || { task, name: called, view, step, part, phi };
     state.set({ mode: name, own: name === "predict" || name === "tour" ? mine : null });
     if (task !== mine.task) wantWhole(mine);
     showModes();
-    studioModes[name]?.enter(studio);
+    studioModes[name]?.enter();
   }
+
+  const changed = (names) => studioModes[now().mode]?.changed?.(names);
+  state.subscribe(changed);
+  page.stage.onMove(() => changed([]));
 
   function showModes() {
     for (const button of at("modes").children) {
@@ -190,9 +194,10 @@
     config, words, state, stats, shown: page.shown, stage: page.stage, panes, ask: page.queue.question, setMode,
     announce: page.announce, open: page.open, go: page.go, load: page.load, draw: page.showAll, change: page.changeAny,
     panel: {
-      card(element) {
-        at("card").replaceChildren(...(element ? [element] : []));
-        at("panel").scrollTop = 0;
+      // What is new is read from its beginning.
+      card(content, { stays = false } = {}) {
+        render(content, at("card"));
+        if (!stays) at("panel").scrollTop = 0;
       },
     },
     setGuess(guess) {
