@@ -56,7 +56,7 @@ studioModes.exercise = (() => {
     }
   }
 
-  // --- the card ----------------------------------------------------------------------------------------------------------
+  // --- the card ------------------------------------------------------------------------------------------------------
 
   function askedOf({ name, text, unit, decimals, drawn }) {
     if (drawn) return html`<li><p>${letters(text)}</p><p class="sentence">${wordOf("draw_it")}</p></li>`;
@@ -64,18 +64,20 @@ studioModes.exercise = (() => {
     return html`<li data-answer=${name}>
       <label><span>${letters(text)}</span><input type="text" inputmode="decimal" name=${name} autocomplete="off"
         aria-describedby="told-${name}" aria-invalid=${kind === "wrong" || nothing} .value=${live(typed[name] ?? "")}>
-        <span class="unit">${letters(unit)}</span><span class="hint">${wordOf("decimals").replace("{count}", decimals)}</span></label>
-      <p id="told-${name}"><span class="verdict ${kind}">${verdict}</span> <span class="sentence">${letters(sentence)}</span></p></li>`;
+        <span class="unit">${letters(unit)}</span>
+        <span class="hint">${wordOf("decimals").replace("{count}", decimals)}</span></label>
+      <p id="told-${name}"><span class="verdict ${kind}">${verdict}</span>
+        <span class="sentence">${letters(sentence)}</span></p></li>`;
   }
 
   function showCard(more) {
-    const { title, text, answers } = exercise, checks = isChecked();
-    studio.panel.card(html`<form class="mode-card" aria-label=${wordOf("exercise")} novalidate @submit=${check} @input=${keep}>
-      <h2>${letters(title || wordOf("exercise"))}</h2>
+    const { title, text, answers } = exercise, checks = isChecked(), name = wordOf("exercise");
+    const button = html`<button class="main" id="check" ?disabled=${checking}>${wordOf("check")}</button>`;
+    studio.panel.card(html`<form class="mode-card" aria-label=${name} novalidate @submit=${check} @input=${keep}>
+      <h2>${letters(title || name)}</h2>
       ${text ? html`<p>${letters(text)}</p>` : nothing}
       <ol class="asked" aria-label=${wordOf("answers")}>${answers.map(askedOf)}</ol>
-      ${checks ? html`<div class="rows"><button type="submit" class="main" id="check" ?disabled=${checking}>${wordOf("check")}</button></div>`
-        : nothing}
+      ${checks ? html`<div class="rows">${button}</div>` : nothing}
       <p id="checked" role="status">${result}</p>
       <p class="hint">${wordOf(checks ? "practice" : "no_checks")}</p></form>`, more);
   }
@@ -101,7 +103,8 @@ studioModes.exercise = (() => {
         const verdict = wordOf(right ? "answer_right" : "answer_wrong"), sentence = exercise.hints?.[hint] || "";
         told[name] = { kind: right ? "right" : "wrong", verdict, sentence };
       }
-      result = wordOf("checked").replace("{right}", all.filter((each) => each.right).length).replace("{checked}", all.length);
+      const count = all.filter((each) => each.right).length;
+      result = wordOf("checked").replace("{right}", count).replace("{checked}", all.length);
     } finally {
       checking = false;
       showCard({ stays: true });

@@ -36,7 +36,8 @@ function filesOf(page) {
   function askAbout({ others, folder }, kind) {
     const all = others.slice(0, 5).join(", ") + (others.length > 5 ? " ..." : "");
     const text = word("others_there").replace("{folder}", folder).replace("{files}", all);
-    said(text, true, html` <button type="button" id="replace" @click=${() => write(kind, true)}>${word("replace_them")}</button>`);
+    const writeAll = () => write(kind, true);
+    said(text, true, html` <button type="button" id="replace" @click=${writeAll}>${word("replace_them")}</button>`);
     at("replace").focus();
   }
 

@@ -88,11 +88,12 @@ function guessOf(studio, asked, letter, moved) {
 
   function marksAt({ guess, answer }) {
     const line = (name, ...points) => svg`<path class=${name} d=${pathOf(points)}></path>`, { pole, way, free } = asked;
+    const round = ([x, y], r) => svg`<circle class="answer" cx=${x} cy=${y} r=${r}></circle>`;
     const rays = () => [line("ray", pole, guess), answer ? line("found-ray", pole, answer) : nothing];
     return [
       pole && view() === asked.view ? rays() : !marks && !free ? line("way", ...way) : nothing,
       answer ? line("apart", guess, answer) : nothing,
-      answer ? svg`<circle class="answer" cx=${answer[0]} cy=${answer[1]} r=${7 / stage.scale({ frame: stage.frame() })}></circle>` : nothing,
+      answer ? round(answer, 7 / stage.scale({ frame: stage.frame() })) : nothing,
     ];
   }
 

@@ -3,7 +3,7 @@
 
 const studioModes = {};
 
-// --- what their cards are made of ----------------------------------------------------------------------------------------
+// --- what their cards are made of ------------------------------------------------------------------------------------
 
 const wordOf = (name) => studio.words[name] ?? name;
 const modeCard = (mode, inside) => html`<section class="mode-card" aria-label=${wordOf(mode)}>${inside}</section>`;

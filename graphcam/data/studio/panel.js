@@ -7,13 +7,11 @@ const tabStop = (lit) => (lit?.length ? "0" : nothing);
 const lights = (lit) => (lit?.length ? JSON.stringify(lit) : nothing);
 
 function readingOf({ title, taken, value, lit, table = [] }, words) {
-  const places = () => html`
-    <details><summary>${words.all_values} (${table.length})</summary>
-      <table>
-        <thead><tr>${["place", "paper", "value"].map((name) => html`<th scope="col">${letters(words[name])}</th>`)}</tr></thead>
-        <tbody>${table.map((row) => html`<tr tabindex=${tabStop(row.lit)} data-lit=${lights(row.lit)}>
-          <th scope="row">${letters(row.place)}</th><td>${letters(row.paper)}</td><td>${letters(row.value)}</td></tr>`)}</tbody>
-      </table></details>`;
+  const head = () => ["place", "paper", "value"].map((name) => html`<th scope="col">${words[name]}</th>`);
+  const rowOf = ({ place, paper, value, lit }) => html`<tr tabindex=${tabStop(lit)} data-lit=${lights(lit)}>
+    <th scope="row">${letters(place)}</th><td>${letters(paper)}</td><td>${letters(value)}</td></tr>`;
+  const places = () => html`<details><summary>${words.all_values} (${table.length})</summary>
+    <table><thead><tr>${head()}</tr></thead><tbody>${table.map(rowOf)}</tbody></table></details>`;
   return html`<div tabindex=${tabStop(lit)} data-lit=${lights(lit)}><dt>${letters(title)}</dt><dd>${
     taken ? html`<span class="taken">${letters(taken)} =</span>` : nothing} <strong>${letters(value)}</strong>${
     table.length ? places() : nothing}</dd></div>`;
@@ -22,16 +20,18 @@ function readingOf({ title, taken, value, lit, table = [] }, words) {
 function stepPanelOf(element, words, go) {
   const partButton = (k, inside) =>
     html`<button type="button" data-part=${k} data-key="part/${k}" @click=${() => go(k)}>${inside}</button>`;
-  const toolsOf = ({ tools }) => (tools.length ? html` <span class="tools-set">${letters(tools.join(" · "))}</span>` : nothing);
+  const toolsOf = ({ tools }) =>
+    (tools.length ? html` <span class="tools-set">${letters(tools.join(" · "))}</span>` : nothing);
 
   // A run is told once, with a table of its places.
   function runItem({ caption, first, head, rows, tools, widest }, parts) {
-    const rowOf = ([name, setting], k) => partButton(first + k, html`<span class="unseen done-here">${
+    const rowOf = ([name, setting], k) => html`<li>${partButton(first + k, html`<span class="unseen done-here">${
       letters(parts[first + k].caption)}</span><b aria-hidden="true">${letters(name)}</b>${
-      setting ? html` <span aria-hidden="true">${letters(setting)}</span>` : nothing}`);
-    return html`<li class="run"><p class="sentences"><span class="said">${letters(caption)}</span>${toolsOf({ tools })}</p>
+      setting ? html` <span aria-hidden="true">${letters(setting)}</span>` : nothing}`)}</li>`;
+    return html`<li class="run">
+      <p class="sentences"><span class="said">${letters(caption)}</span>${toolsOf({ tools })}</p>
       ${head ? html`<p class="head" aria-hidden="true">${letters(head)}</p>` : nothing}
-      <ol class="row-table" style="--row: ${widest}">${rows.map((row, k) => html`<li>${rowOf(row, k)}</li>`)}</ol></li>`;
+      <ol class="row-table" style="--row: ${widest}">${rows.map(rowOf)}</ol></li>`;
   }
 
   function itemOf(part, k, { parts, runs }) {
@@ -74,7 +74,7 @@ function stepPanelOf(element, words, go) {
 const pinnedColumn = (pinned) => ["pinned", "pin", ({ id }) => pinned.find((value) => value.id === id)?.said.drawn ?? "–"];
 
 function valuesTable(values, columns, words) {
-  const headOf = ([name, kind]) => html`<th scope="col" class=${kind === "pin" ? kind : nothing}>${letters(words[name])}</th>`;
+  const headOf = ([name, kind]) => html`<th scope="col" class=${kind === "pin" ? kind : nothing}>${words[name]}</th>`;
   const rowOf = (value) => html`<tr><th scope="row">${letters(value.title)}</th>${columns.map(([, kind, said]) =>
     html`<td class=${kind ?? nothing}>${letters(said(value))}</td>`)}</tr>`;
   return html`<table class="compare"><thead><tr>${[["quantity", null], ...columns].map(headOf)}</tr></thead>

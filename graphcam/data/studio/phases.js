@@ -13,8 +13,8 @@ function borderChanges(phases, k, degrees, fine = false) {
   return changesOf({ path, sum: other }, Math.max(1, Math.min(sum - 1, Math.round((near - start) * 1e6) / 1e6)));
 }
 
-// It is a part of the form, which knows what is moved and what is refused: `rowOf` and `errorOf` render as there.
-function phasesOf({ change, slide, draw, rowOf, errorOf, angleOf, isRefused, word, decimal }) {
+// It is a part of the form, which knows what is moved and what is refused: `rowOf` and `errorOf` are its own.
+function phasesOf({ change, slide, draw, rowOf, errorOf, valueOf, isRefused, word, decimal }) {
   const key = "phases";
   let given = [], phases = [], chosen = null;
 
@@ -27,14 +27,14 @@ function phasesOf({ change, slide, draw, rowOf, errorOf, angleOf, isRefused, wor
   // --- the bar ------------------------------------------------------------------------------------------------------------
 
   function segmentOf({ kind, angle, symbol, name }, k, wide) {
-    const kinds = [kind === "dwell" ? kind : "moves", isTight(name, wide) && "narrow", isTight(`${angle}°`, wide) && "tiny"];
+    const tight = `${isTight(name, wide) ? " narrow" : ""}${isTight(`${angle}°`, wide) ? " tiny" : ""}`;
     const choose = () => {
       chosen = chosen === k ? null : k;
       draw();
     };
-    return html`<button type="button" class=${kinds.filter(Boolean).join(" ")} data-key="phase/${k}" aria-pressed=${k === chosen}
-      aria-label="${symbol} ${name} ${said(angle)}" style="flex-grow: ${angle}" @click=${choose}><b>${said(angle)}</b><span>${
-        letters(name)}</span></button>`;
+    return html`<button type="button" class="${kind === "dwell" ? kind : "moves"}${tight}" data-key="phase/${k}"
+      aria-pressed=${k === chosen} aria-label="${symbol} ${name} ${said(angle)}" style="flex-grow: ${angle}"
+      @click=${choose}><b>${said(angle)}</b><span>${letters(name)}</span></button>`;
   }
 
   function borderOf(k, isWrong) {
@@ -46,16 +46,18 @@ function phasesOf({ change, slide, draw, rowOf, errorOf, angleOf, isRefused, wor
       change(borderChanges(standing(), k, next, event.shiftKey), true);
     };
     const moved = ({ target }) => change(borderChanges(standing(), k, Number(target.value)), true);
-    return html`<div class="border" data-border=${k} style="left: ${100 * value / total()}%" @pointerdown=${(event) => drag(event, k)}>
-      <input type="range" class="unseen" step="any" data-key="border/${k}" min=${min} max=${max} .value=${live(String(value))}
+    return html`<div class="border" data-border=${k} style="left: ${100 * value / total()}%"
+      @pointerdown=${(event) => drag(event, k)}><input type="range" class="unseen" step="any" data-key="border/${k}"
         aria-label="${word("border")} ${phases[k].symbol} ${phases[k + 1].symbol}" aria-valuetext=${said(value)}
-        aria-invalid=${isWrong || nothing} @keydown=${pressed} @input=${moved}></div>`;
+        aria-invalid=${isWrong || nothing} min=${min} max=${max} .value=${live(String(value))}
+        @keydown=${pressed} @input=${moved}></div>`;
   }
 
   function drag(event, k) {
     if (event.button) return;
     event.preventDefault();
-    const border = event.currentTarget, box = border.parentElement.getBoundingClientRect(), turn = total(), before = standing();
+    const border = event.currentTarget, box = border.parentElement.getBoundingClientRect();
+    const turn = total(), before = standing();
     border.setPointerCapture(event.pointerId);
     border.firstElementChild.focus({ preventScroll: true });
     const move = (now) => slide(borderChanges(before, k, (now.clientX - box.left) / box.width * turn, now.shiftKey));
@@ -74,7 +76,8 @@ function phasesOf({ change, slide, draw, rowOf, errorOf, angleOf, isRefused, wor
 
   function barOf(field, wrong) {
     given = field.phases;
-    phases = given.map((phase, k) => ({ ...phase, angle: angleOf({ path: `motion.phases[${k}].angle`, value: phase.angle }) }));
+    const angleOf = ({ angle }, k) => valueOf({ path: `motion.phases[${k}].angle`, value: angle });
+    phases = given.map((phase, k) => ({ ...phase, angle: angleOf(phase, k) }));
     if (chosen !== null) chosen = Math.min(chosen, phases.length - 1);
     const own = phases[chosen], isWrong = wrong?.key === key;
     const wide = (document.getElementById("form").clientWidth || 242) - 2;

@@ -49,8 +49,7 @@ studioModes.predict = (() => {
 
   function fieldOf({ name, min, max }, k) {
     const values = guess.values();
-    const typed = ({ target: { value } }) =>
-      value === "" || !Number.isFinite(Number(value)) || guess.set(values.map((each, j) => (j === k ? Number(value) : each)));
+    const typed = ({ target: { value } }) => value && guess.set(values.with(k, Number(value)));
     return html`<label class="guess-field"><span>${name}</span>
       <input type="number" step="0.5" min=${Math.ceil(min)} max=${Math.floor(max)} data-field=${k}
         .value=${live(values[k].toFixed(1))} @change=${typed}><span class="unit">mm</span></label>`;
@@ -61,24 +60,29 @@ studioModes.predict = (() => {
       kind = target.value;
       begin();
     };
-    return html`<label class="kinds"><span>${wordOf("predict_what")}</span><select id="predict-kind" @change=${chosen}>${
-        options(asked.kinds.map((each) => [each.kind, each.title]), kind)}</select></label>
+    const kinds = options(asked.kinds.map((each) => [each.kind, each.title]), kind);
+    return html`<label class="kinds"><span>${wordOf("predict_what")}</span>
+        <select id="predict-kind" @change=${chosen}>${kinds}</select></label>
       <p class="question">${letters(asked.question)}</p>
       <p class="hint">${wordOf("predict_how")}</p>
       ${guess.axes.map(fieldOf)}
-      <div class="rows">${modeButton("construct", "construct", construct, true)}${modeButton("next-variant", "next_variant", nextVariant)}</div>`;
+      <div class="rows">${modeButton("construct", "construct", construct, true)}${
+        modeButton("next-variant", "next_variant", nextVariant)}</div>`;
   }
 
   const goingOf = ({ title }) => html`<p class="question">${letters(asked.question)}</p>
     <p id="going" role="status">${letters(wordOf("constructing").replace("{step}", title))}</p>
     ${modeButton("construct-next", "construct_next", next)}`;
 
-  const judgedOf = ({ said, why, paper_said, machine_said, quantity }) => html`<p class="question">${letters(asked.question)}</p>
+  const rowOf = (name, text) => html`<div><dt>${letters(name)}</dt><dd>${text}</dd></div>`;
+  const judgedOf = ({ said, why, paper_said, machine_said, quantity }) => html`
+    <p class="question">${letters(asked.question)}</p>
     <p class="said" id="judged" tabindex="-1"><strong>${letters(said)}</strong></p>
-    <dl class="differences"><div><dt>${wordOf("on_paper")}</dt><dd>${paper_said}</dd></div>
-      ${machine_said ? html`<div><dt>${letters(`${wordOf("of_the_machine")}: ${quantity}`)}</dt><dd>${machine_said}</dd></div>` : nothing}</dl>
+    <dl class="differences">${rowOf(wordOf("on_paper"), paper_said)}${
+      machine_said ? rowOf(`${wordOf("of_the_machine")}: ${quantity}`, machine_said) : nothing}</dl>
     <p>${letters(why)}</p>
-    <div class="rows">${modeButton("next-variant", "next_variant", nextVariant, true)}${modeButton("try-again", "try_again", () => begin())}</div>`;
+    <div class="rows">${modeButton("next-variant", "next_variant", nextVariant, true)}${
+      modeButton("try-again", "try_again", () => begin())}</div>`;
 
   function showCard(more) {
     const inside = going ? goingOf(going) : judged ? judgedOf(judged) : askedOf();

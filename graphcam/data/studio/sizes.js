@@ -3,10 +3,11 @@
 
 function sizesOf(at, acts) {
   const { change, slide, leave, refused, word, decimal } = acts;
-  // What the engine said last; what is moved since, by paths; what stands in a field and is no value yet, by keys; what is
-  // refused, and the field that was changed last: of a lift there may be two, that of all phases and of the chosen one.
+  // What the engine said last; what is moved since, by paths; what stands in a field and is no value yet, by keys; what
+  // is refused; the field that was changed last: of a lift there may be two, that of all phases and of the chosen one.
   let fields = [], moved = {}, drafts = {}, wrong = null, edited = null;
-  const phases = phasesOf({ ...acts, change: changeNow, draw, rowOf, errorOf, angleOf: valueOf, isRefused: () => wrong !== null });
+  const isRefused = () => wrong !== null;
+  const phases = phasesOf({ ...acts, change: changeNow, draw, rowOf, errorOf, valueOf, isRefused });
 
   // What is seldom moved is closed at first.
   const SELDOM = /^(drawing|pencil|spring|material)/;
@@ -86,36 +87,38 @@ function sizesOf(at, acts) {
 
   function numberOf(field) {
     const key = keyOf(field), id = idOf(field), { kind, name, unit, min, max, step } = field, value = valueOf(field);
-    const isOpen = kind === "open-number" && value === null, there = value ?? field.adopted;
-    return html`<div class="size${isOpen ? " open" : ""}${wrongAt(field) ? " wrong" : ""}">
+    const isOpen = kind === "open-number" && value === null, there = value ?? field.adopted, isWrong = wrongAt(field);
+    return html`<div class="size${isOpen ? " open" : ""}${isWrong ? " wrong" : ""}">
       <div class="row"><label for=${id}>${letters(name)}</label>
         <input type="text" inputmode="decimal" id=${id} data-key=${key} autocomplete="off" ?hidden=${isOpen}
-          aria-describedby="${id}-error" aria-invalid=${wrongAt(field) || nothing} .value=${live(drafts[key] ?? textOf(field))}
+          aria-describedby="${id}-error" aria-invalid=${isWrong || nothing} .value=${live(drafts[key] ?? textOf(field))}
           @input=${({ target }) => typed(field, target.value)} @change=${({ target }) => commit(field, target)}
           @keydown=${(event) => pressed(field, event)}>
         <span class="unit" ?hidden=${isOpen}>${letters(unit)}</span></div>
       ${kind === "open-number" ? openSwitch(field, isOpen) : nothing}
-      <input type="range" data-key="${key}/range" aria-label=${name} ?hidden=${isOpen} min=${min} max=${max} step=${step}
-        aria-valuetext=${`${shortNumber(there, decimal())} ${unit}`.trim()} .value=${live(String(there ?? min))}
-        @input=${({ target }) => slid(field, target)}>
-      ${errorOf(wrongAt(field), `${id}-error`)}</div>`;
+      <input type="range" data-key="${key}/range" aria-label=${name} ?hidden=${isOpen}
+        aria-valuetext=${`${shortNumber(there, decimal())} ${unit}`.trim()} min=${min} max=${max} step=${step}
+        .value=${live(String(there ?? min))} @input=${({ target }) => slid(field, target)}>
+      ${errorOf(isWrong, `${id}-error`)}</div>`;
   }
 
   function choiceOf(field) {
-    const key = keyOf(field), id = idOf(field), { path, name, choices } = field;
-    const isChosen = ({ value }, k) => (key in drafts ? drafts[key] === k : value === field.value);
+    const key = keyOf(field), id = idOf(field), isWrong = wrongAt(field), { path, name, choices, value } = field;
+    const isChosen = (each, k) => (key in drafts ? drafts[key] === k : each.value === value);
+    const optionOf = (each, k) =>
+      html`<option value=${each.value} .selected=${isChosen(each, k)}>${letters(each.name)}</option>`;
     const chosen = ({ target: { selectedIndex: k } }) => {
       drafts[key] = k;
       changeNow(choices[k].changes || { [path]: choices[k].value });
     };
-    return html`<div class="size choosing${wrongAt(field) ? " wrong" : ""}"><label for=${id}>${letters(name)}</label>
-      <select id=${id} data-key=${key} aria-invalid=${wrongAt(field) || nothing} @change=${chosen}>${
-        choices.map((each, k) => html`<option value=${each.value} .selected=${isChosen(each, k)}>${letters(each.name)}</option>`)
-      }</select>${errorOf(wrongAt(field), `${id}-error`)}</div>`;
+    return html`<div class="size choosing${isWrong ? " wrong" : ""}"><label for=${id}>${letters(name)}</label>
+      <select id=${id} data-key=${key} aria-invalid=${isWrong || nothing} @change=${chosen}>${
+        choices.map(optionOf)}</select>${errorOf(isWrong, `${id}-error`)}</div>`;
   }
 
   function errorOf(isWrong, id) {
-    return html`<p class="error" id=${id} role="alert" ?hidden=${!isWrong}>${isWrong ? letters(wrong.message) : nothing}</p>`;
+    const message = isWrong ? letters(wrong.message) : nothing;
+    return html`<p class="error" id=${id} role="alert" ?hidden=${!isWrong}>${message}</p>`;
   }
 
   function rowOf(field) {
@@ -127,7 +130,8 @@ function sizesOf(at, acts) {
   function sectionOf(group) {
     const own = fields.filter((field) => field.group === group);
     const inside = repeat(own, keyOf, (field) => (field.kind === "phases" ? phases.barOf(field, wrong) : rowOf(field)));
-    return own.every(({ path }) => SELDOM.test(path)) ? html`<details><summary>${letters(group)}</summary>${inside}</details>`
+    const isSeldom = own.every(({ path }) => SELDOM.test(path));
+    return isSeldom ? html`<details><summary>${letters(group)}</summary>${inside}</details>`
       : html`<section><h2>${letters(group)}</h2>${inside}</section>`;
   }
 
@@ -146,9 +150,9 @@ function sizesOf(at, acts) {
   function show(found) {
     // Of the same sizes again: what was refused stays in its field.
     if (wrong && alike(found, fields)) return;
-    const { type, dataset: { key } } = document.activeElement, isTyping = type === "text" && key in drafts && key !== wrong?.key;
+    const { type, dataset: { key } } = document.activeElement;
     fields = found;
-    restore(isTyping ? { [key]: drafts[key] } : {});
+    restore(type === "text" && key in drafts && key !== wrong?.key ? { [key]: drafts[key] } : {});
   }
 
   function follow(changes) {
@@ -184,7 +188,8 @@ function sizesOf(at, acts) {
     const own = keyAt(field), all = changed.map(keyAt).filter(Boolean);
     const key = own !== phases.key && all.includes(own) ? own : all[0] || own;
     // A knob of the drawing has moved a border of the bar.
-    if (key) refuse({ key, message: [message, remedy].filter(Boolean).join("; "), border: keysOf(changed[0] ?? "")[2] });
+    const border = keysOf(changed[0] ?? "")[2];
+    if (key) refuse({ key, message: [message, remedy].filter(Boolean).join("; "), border });
     return Boolean(own);
   }
 
@@ -197,5 +202,5 @@ function sizesOf(at, acts) {
     return `${name} ${number ? `${number} ${unit}`.trim() : chosen ?? word("found")}`;
   }
 
-  return { show, follow, showError, restore, said, refused: () => wrong !== null, fields: () => rows().filter(({ key }) => !key) };
+  return { show, follow, showError, restore, said, refused: isRefused, fields: () => rows().filter(({ key }) => !key) };
 }

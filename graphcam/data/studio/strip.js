@@ -12,9 +12,9 @@ function stripOf(at, open) {
   function cardOf(place, { name, title, short }) {
     const { view, beside, boarding, locked } = shown, isTab = place === "strip", isLarge = name === view;
     return html`<button type="button" class="view${isTab && beside.includes(name) ? " beside" : ""}" data-open=${name}
-      data-key="${place}/${name}" title=${title} aria-label=${title} id=${isTab ? `view-${name}` : nothing}
-      role=${isTab ? "tab" : nothing} aria-controls=${isTab ? "canvas" : nothing}
-      aria-selected=${isTab ? isLarge && !boarding : nothing} tabindex=${isTab ? isLarge - 1 : nothing} ?disabled=${locked(name)}>
+      data-key="${place}/${name}" title=${title} aria-label=${title} ?disabled=${locked(name)}
+      id=${isTab ? `view-${name}` : nothing} role=${isTab ? "tab" : nothing} aria-controls=${isTab ? "canvas" : nothing}
+      aria-selected=${isTab ? isLarge && !boarding : nothing} tabindex=${isTab ? isLarge - 1 : nothing}>
       <svg class=${name === "mechanism" ? "scene" : "page"} aria-hidden="true" viewBox="0 0 1 1"></svg>
       <span>${letters(isTab ? short : title)}</span><i></i></button>`;
   }

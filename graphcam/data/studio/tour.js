@@ -23,8 +23,9 @@ studioModes.tour = (() => {
 
   function showAll(focused = false) {
     tour = null;
+    const seenSaid = ({ id }) => (seen.has(id) ? ` (${wordOf("seen")})` : "");
     const itemOf = (each) => html`<li><button type="button" data-tour=${each.id} @click=${() => start(each)}>
-      <b>${letters(each.title)}</b><span>${letters(each.about)}${seen.has(each.id) ? ` (${wordOf("seen")})` : ""}</span></button></li>`;
+      <b>${letters(each.title)}</b><span>${letters(each.about + seenSaid(each))}</span></button></li>`;
     studio.panel.card(modeCard("tour", html`<h2 id="tours-title" tabindex="-1">${wordOf("tours")}</h2>
       <ul class="tour-list">${tours.map(itemOf)}</ul>`));
     if (focused) focusOn("tours-title");
@@ -53,13 +54,16 @@ studioModes.tour = (() => {
 
   function choicesOf({ ask, choices, answer }, isDone) {
     const stateOf = (k) => (isDone ? k === answer && "right" : tried.has(k) && "wrong") || nothing;
-    return html`<div class="choices" role="group" aria-label=${ask}>${choices.map((choice, k) => html`<button type="button"
-      data-choice=${k} ?disabled=${isDone} data-state=${stateOf(k)} @click=${() => choose(k)}>${letters(choice)}</button>`)}</div>`;
+    const buttonOf = (choice, k) => html`<button type="button" data-choice=${k} data-state=${stateOf(k)}
+      ?disabled=${isDone} @click=${() => choose(k)}>${letters(choice)}</button>`;
+    return html`<div class="choices" role="group" aria-label=${ask}>${choices.map(buttonOf)}</div>`;
   }
 
   function showCard(more) {
-    const card = tour.cards[place], { choices, goal, ask, why } = card, isDone = answered.has(place), isLast = place === tour.cards.length - 1;
-    const done = wordOf(choices ? "right" : "done_it"), told = isDone ? `${done} ${why}` : tried.size ? wordOf("not_right") : "";
+    const card = tour.cards[place], { choices, goal, ask, why } = card;
+    const isDone = answered.has(place), isLast = place === tour.cards.length - 1;
+    const wrong = tried.size ? wordOf("not_right") : "";
+    const told = isDone ? `${wordOf(choices ? "right" : "done_it")} ${why}` : wrong;
     const progressOf = (_, k) => html`<i class=${k === place ? "here" : answered.has(k) ? "done" : nothing}></i>`;
     studio.panel.card(modeCard("tour", html`<h2 id="card-title" tabindex="-1">${letters(tour.title)}</h2>
       <p class="hint">${placeSaid()}</p>

@@ -64,8 +64,8 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
     const { values = [], sizes = {} } = shown(), value = values.find((each) => each.id === VALUE_NAMES[id]);
     const own = VALUE_NAMES[id] ? value && Math.abs(value.exact) : sizes[id], exact = here === null ? "" : written(here, unit);
     const adopted = own === null || own === undefined ? exact : written(id === "curvature_radius" && here < 0 ? -own : own, unit);
-    const more = exact && exact !== adopted ? html`<small>${words.not_rounded.replace("{value}", exact)}</small>` : nothing;
-    return html`<strong>${adopted}</strong>${more}`;
+    const more = () => html`<small>${words.not_rounded.replace("{value}", exact)}</small>`;
+    return html`<strong>${adopted}</strong>${exact && exact !== adopted ? more() : nothing}`;
   }
 
   // A cam that differs in other sizes too does not lie on the curve.
@@ -73,7 +73,8 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
     alike(withChanges(task, changesOf(field, valueAt(pinned, field.path) ?? null)), pinned);
 
   function chartOf(curve, field, task, pinned) {
-    const { at, limits = {}, from, to } = sweep, limit = limits[curve.id] ?? undefined, scales = scalesOf(curve, at, limit);
+    const { at, limits = {}, from, to } = sweep, limit = limits[curve.id] ?? undefined;
+    const scales = scalesOf(curve, at, limit);
     if (!scales.known) return nothing;
     const value = now(task, field), here = value === null ? null : valueOn(curve, at, value);
     const line = (name, d) => svg`<path class=${name} d=${d}></path>`;
@@ -122,12 +123,12 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
 
   function draw() {
     const field = fieldOf(), sizes = fields.map(({ path, name }) => [path, name]);
+    const pin = () => document.getElementById("pin").click();
     render(html`
       <label class="from"><span>${words.over}</span>
         <select id="sweep-size" data-key="sweep-size" @change=${chosen}>${options(sizes, field?.path)}</select></label>
       <div class="charts">${chartsOf(field)}</div>
-      <button type="button" class="pins" ?hidden=${pinnedValues} @click=${() => document.getElementById("pin").click()}>${
-        words.pin}</button>
+      <button type="button" class="pins" ?hidden=${pinnedValues} @click=${pin}>${words.pin}</button>
       <div>${both()}</div>`, element);
   }
 
