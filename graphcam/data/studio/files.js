@@ -59,7 +59,7 @@ function filesOf(page) {
     try { await navigator.clipboard.writeText(location.href); } catch { /* the address line has it */ }
     const text = word(hash ? "link_copied" : "link_too_long");
     page.announce(text);
-    lettered(at("told-limits"), text);
+    render(text, at("told-limits"));
     setTimeout(page.showStatus, 2500);
   }
 

@@ -65,7 +65,7 @@ function stepPanelOf(element, words, go) {
     if (part) items[part]?.scrollIntoView({ block: "nearest" });
   }
 
-  return { show, tell: (...elements) => render(elements, element) };
+  return { show, tell: (said) => render(said, element) };
 }
 
 // --- the values -----------------------------------------------------------------------------------------------------------
