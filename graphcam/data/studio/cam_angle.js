@@ -40,9 +40,11 @@ function camAngleOf(page) {
     const data = last.mechanism, { turned } = page.panes[0];
     if (!data || !turned) return;
     const k = turned.placeAt(now().phi);
-    const rowOf = (name) => html`<div><dt>${word(name)}</dt><dd><strong data-live=${name}>${turned.read(name, k)}</strong></dd>
+    const rowOf = (name) => html`<div><dt>${word(name)}</dt>
+      <dd><strong data-live=${name}>${turned.read(name, k)}</strong></dd>
       <svg class="spark" viewBox="0 0 360 60" preserveAspectRatio="none" aria-hidden="true"></svg></div>`;
-    page.stepPanel.tell(html`<h2>${letters(turned.phaseAt(now().phi).name)}</h2><p class="about">${letters(data.about)}</p>
+    page.stepPanel.tell(html`<h2>${letters(turned.phaseAt(now().phi).name)}</h2>
+      <p class="about">${letters(data.about)}</p>
       <dl class="live">${data.live.map(rowOf)}</dl>`);
     at("panel-step").querySelectorAll(".spark").forEach((picture, j) => showSpark(picture, data, data.live[j], k));
   }

@@ -3,18 +3,6 @@
 
 const { html, svg, render, nothing, live, repeat } = lit;
 
-function make(kind, attributes = {}, ...inside) {
-  const element = document.createElement(kind);
-  for (const [name, value] of Object.entries(attributes)) {
-    if (name === "text") lettered(element, value);
-    else if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (value === true) element.setAttribute(name, "");
-    else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, value);
-  }
-  element.append(...inside.flat().filter((one) => one !== null && one !== undefined && one !== false));
-  return element;
-}
-
 // φ_у and φ_д.с have indices that Unicode lacks the letters for.
 const INDEXED = /(?<![\p{L}\p{N}_])([Α-Ωα-ω])_([\p{L}\p{N}]+(?:\.[\p{L}\p{N}]+)*)/u;
 
@@ -22,14 +10,10 @@ const INDEXED = /(?<![\p{L}\p{N}_])([Α-Ωα-ω])_([\p{L}\p{N}]+(?:\.[\p{L}\p{N}
 const letters = (text) =>
   String(text).split(INDEXED).map((piece, k) => (k % 3 === 2 ? html`<sub>${piece.normalize("NFKC")}</sub>` : piece));
 
-function lettered(element, text) {
-  render(letters(text), element);
-  return element;
-}
-
-// What a list offers, [[value, text], ...].
-const options = (all, chosen) => all.map(([value, text]) =>
-  html`<option value=${value} .selected=${value === chosen}>${letters(text)}</option>`);
+// What a list offers, [[value, text], ...]; each has an element of its own, for Chromium makes a list as wide as the
+// texts that came with their elements.
+const options = (all, isChosen) => repeat(all, ([value]) => value, ([value, text], k) =>
+  html`<option value=${value} .selected=${isChosen(value, k)}>${letters(text)}</option>`);
 
 // A number as short as it is exact to a hundredth of its step, with the minus sign of print.
 function shortNumber(value, decimal = ".") {
@@ -45,10 +29,3 @@ function typedNumber(text) {
 
 // Whether a word would not go into so wide a box [pixels], by the width of a small letter.
 const isTight = (word, wide) => wide < 6.6 * word.length + 6;
-
-// Elements made anew keep the focus where it was, by the key that they bear.
-function keepingFocus(parent, remake) {
-  const key = parent.contains(document.activeElement) ? document.activeElement.dataset.key : undefined;
-  remake();
-  if (key !== undefined) parent.querySelector(`[data-key="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
-}

@@ -56,7 +56,8 @@ function pictureOf(page) {
   function chooseBeside() {
     const views = page.viewNames().filter(({ name }) => name !== page.view() && !now().hidden.includes(name));
     const more = [["", word("beside_usual")], ["diagrams", word("beside_diagrams")]];
-    render(options([...more, ...views.map(({ name, title }) => [name, title])], now().beside ?? ""), at("beside"));
+    const all = [...more, ...views.map(({ name, title }) => [name, title])];
+    render(options(all, (value) => value === (now().beside ?? "")), at("beside"));
   }
 
   function showPane(pane, k) {
@@ -112,7 +113,8 @@ function pictureOf(page) {
   }
 
   function showPips(count, here) {
-    const pipOf = (_, k) => html`<span data-step=${k} class=${k < here ? "done" : k === here ? "here" : nothing}></span>`;
+    const kindOf = (k) => (k === here ? "here" : k < here ? "done" : nothing);
+    const pipOf = (_, k) => html`<span data-step=${k} class=${kindOf(k)}></span>`;
     render(Array.from({ length: count }, pipOf), at("pips"));
   }
 

@@ -60,7 +60,7 @@ studioModes.predict = (() => {
       kind = target.value;
       begin();
     };
-    const kinds = options(asked.kinds.map((each) => [each.kind, each.title]), kind);
+    const kinds = options(asked.kinds.map((each) => [each.kind, each.title]), (each) => each === kind);
     return html`<label class="kinds"><span>${wordOf("predict_what")}</span>
         <select id="predict-kind" @change=${chosen}>${kinds}</select></label>
       <p class="question">${letters(asked.question)}</p>

@@ -104,16 +104,15 @@ function sizesOf(at, acts) {
 
   function choiceOf(field) {
     const key = keyOf(field), id = idOf(field), isWrong = wrongAt(field), { path, name, choices, value } = field;
-    const isChosen = (each, k) => (key in drafts ? drafts[key] === k : each.value === value);
-    const optionOf = (each, k) =>
-      html`<option value=${each.value} .selected=${isChosen(each, k)}>${letters(each.name)}</option>`;
+    const isChosen = (each, k) => (key in drafts ? drafts[key] === k : each === value);
     const chosen = ({ target: { selectedIndex: k } }) => {
       drafts[key] = k;
       changeNow(choices[k].changes || { [path]: choices[k].value });
     };
     return html`<div class="size choosing${isWrong ? " wrong" : ""}"><label for=${id}>${letters(name)}</label>
       <select id=${id} data-key=${key} aria-invalid=${isWrong || nothing} @change=${chosen}>${
-        choices.map(optionOf)}</select>${errorOf(isWrong, `${id}-error`)}</div>`;
+        options(choices.map((each) => [each.value, each.name]), isChosen)}</select>
+      ${errorOf(isWrong, `${id}-error`)}</div>`;
   }
 
   function errorOf(isWrong, id) {
