@@ -122,11 +122,12 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
   }
 
   function draw() {
-    const field = fieldOf(), sizes = options(fields.map(({ path, name }) => [path, name]), (path) => path === field.path);
+    const field = fieldOf(), isChosen = (path) => path === field.path;
     const pin = () => document.getElementById("pin").click();
     render(html`
       <label class="from"><span>${words.over}</span>
-        <select id="sweep-size" data-key="sweep-size" @change=${chosen}>${sizes}</select></label>
+        <select id="sweep-size" data-key="sweep-size" @change=${chosen}>${
+          options(fields.map(({ path, name }) => [path, name]), isChosen)}</select></label>
       <div class="charts">${chartsOf(field)}</div>
       <button type="button" class="pins" ?hidden=${pinnedValues} @click=${pin}>${words.pin}</button>
       <div>${both()}</div>`, element);
