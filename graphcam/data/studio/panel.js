@@ -17,9 +17,11 @@ function readingOf({ title, taken, value, lit, table = [] }, words) {
     table.length ? places() : nothing}</dd></div>`;
 }
 
-function stepPanelOf(element, words, go) {
+function stepPanelOf({ at, words, go, currentStep }) {
+  const element = at("panel-step");
+  const goTo = (part) => () => go(currentStep(), part);
   const partButton = (k, inside) =>
-    html`<button type="button" data-part=${k} data-key="part/${k}" @click=${() => go(k)}>${inside}</button>`;
+    html`<button type="button" data-part=${k} data-key="part/${k}" @click=${goTo(k)}>${inside}</button>`;
   const toolsOf = ({ tools }) =>
     (tools.length ? html` <span class="tools-set">${letters(tools.join(" · "))}</span>` : nothing);
 
@@ -44,7 +46,7 @@ function stepPanelOf(element, words, go) {
   const partsOf = (step, isWhole) => html`
     <div class="part-by-part"><h3 id="parts-title">${words.part_by_part}</h3>
       <button type="button" class="whole-step" data-key="whole" aria-pressed=${isWhole}
-        @click=${() => go(null)}>${words.whole_step}</button></div>
+        @click=${goTo(null)}>${words.whole_step}</button></div>
     <ol class="parts" aria-labelledby="parts-title">${step.parts.map((part, k) => itemOf(part, k, step))}</ol>`;
 
   const articleOf = (step, isWhole) => html`<article>
@@ -81,11 +83,11 @@ function valuesTable(values, columns, words) {
     <tbody>${values.map(rowOf)}</tbody></table>`;
 }
 
-function valuesPanelOf(element, words) {
+function valuesPanelOf({ at, words }) {
   const columns = [["drawn", "now", ({ said }) => said.drawn], ["exact", null, ({ said }) => said.exact]];
   const bound = ["bound", "bound", ({ said }) => said.bound ?? ""];
   return (values, pinned) => render(html`
     <div class="scrolled" tabindex="0" role="region" aria-label=${words.values}>${
       valuesTable(values, [...columns, pinned ? pinnedColumn(pinned) : bound], words)}</div>
-    <p class="hint">${letters(words.values_about)}</p>`, element);
+    <p class="hint">${letters(words.values_about)}</p>`, at("panel-values"));
 }

@@ -13,8 +13,9 @@ function borderChanges(phases, k, degrees, fine = false) {
   return changesOf({ path, sum: other }, Math.max(1, Math.min(sum - 1, Math.round((near - start) * 1e6) / 1e6)));
 }
 
-// It is a part of the form, which knows what is moved and what is refused: `rowOf` and `errorOf` are its own.
-function phasesOf({ change, slide, draw, rowOf, errorOf, valueOf, isRefused, word, decimal }) {
+// A part of the form, which changes the task, knows what is moved and refused, and renders fields and errors.
+function phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused }) {
+  const { at, word, decimal } = page;
   const key = "phases";
   let given = [], phases = [], chosen = null;
 
@@ -60,7 +61,8 @@ function phasesOf({ change, slide, draw, rowOf, errorOf, valueOf, isRefused, wor
     const turn = total(), before = standing();
     border.setPointerCapture(event.pointerId);
     border.firstElementChild.focus({ preventScroll: true });
-    const move = (now) => slide(borderChanges(before, k, (now.clientX - box.left) / box.width * turn, now.shiftKey));
+    const move = ({ clientX, shiftKey }) =>
+      page.slide(borderChanges(before, k, (clientX - box.left) / box.width * turn, shiftKey));
     border.addEventListener("pointermove", move);
     border.addEventListener("lostpointercapture", () => border.removeEventListener("pointermove", move), { once: true });
   }
@@ -80,7 +82,7 @@ function phasesOf({ change, slide, draw, rowOf, errorOf, valueOf, isRefused, wor
     phases = given.map((phase, k) => ({ ...phase, angle: angleOf(phase, k) }));
     if (chosen !== null) chosen = Math.min(chosen, phases.length - 1);
     const own = phases[chosen], isWrong = wrong?.key === key;
-    const wide = (document.getElementById("form").clientWidth || 242) - 2;
+    const wide = (at("form").clientWidth || 242) - 2;
     return html`<div class="size phases${isWrong ? " wrong" : ""}" role="group" aria-label=${word("phases")}>
       <div class="phase-bar">${phases.map((phase, k) => segmentOf(phase, k, phase.angle / total() * wide))}${
         phases.slice(1).map((_, k) => borderOf(k, isWrong && wrong.border === k))}</div>

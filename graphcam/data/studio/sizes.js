@@ -1,13 +1,13 @@
 // The form of sizes: a slider and a number field for each, choices, and what is left open to be found.
 "use strict";
 
-function sizesOf(at, acts) {
-  const { change, slide, leave, refused, word, decimal } = acts;
+function sizesOf(page) {
+  const { at, word, decimal } = page;
   // What the engine said last; what is moved since, by paths; what stands in a field and is no value yet, by keys; what
   // is refused; the field that was changed last: of a lift there may be two, that of all phases and of the chosen one.
   let fields = [], moved = {}, drafts = {}, wrong = null, edited = null;
   const isRefused = () => wrong !== null;
-  const phases = phasesOf({ ...acts, change: changeNow, draw, rowOf, errorOf, valueOf, isRefused });
+  const phases = phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused });
 
   // What is seldom moved is closed at first.
   const SELDOM = /^(drawing|pencil|spring|material)/;
@@ -26,8 +26,8 @@ function sizesOf(at, acts) {
 
   // --- one field -------------------------------------------------------------------------------------------------------
 
-  function changeNow(changes, byKey = false) {
-    change(changes, byKey);
+  function change(changes, byKey = false) {
+    page.change(changes, byKey);
     draw();
   }
 
@@ -37,7 +37,7 @@ function sizesOf(at, acts) {
     delete drafts[keyOf(field)];
     edited = keyOf(field);
     if (isOld) draw();
-    else changeNow(changesOf(field, number));
+    else change(changesOf(field, number));
   }
 
   function pressed(field, event) {
@@ -47,12 +47,12 @@ function sizesOf(at, acts) {
       event.stopPropagation();
       delete drafts[keyOf(field)];
       draw();
-      leave();
+      page.leave();
     }
     if (!/^Arrow(Up|Down)$/.test(key) || Number.isNaN(value)) return;
     event.preventDefault();
     delete drafts[keyOf(field)];
-    changeNow(changesOf(field, valueByKey({ ...field, value }, key, shiftKey)), true);
+    change(changesOf(field, valueByKey({ ...field, value }, key, shiftKey)), true);
   }
 
   function typed(field, text) {
@@ -62,12 +62,12 @@ function sizesOf(at, acts) {
 
   function slid(field, { value }) {
     edited = keyOf(field);
-    slide(changesOf(field, Number(value)));
+    page.slide(changesOf(field, Number(value)));
   }
 
   function openSwitch(field, isOpen) {
     const pick = (given) =>
-      changeNow(given ? changesOf(field, field.adopted ?? field.min) : { [field.open || field.path]: null });
+      change(given ? changesOf(field, field.adopted ?? field.min) : { [field.open || field.path]: null });
     const button = (given, name) => html`<button type="button" role="radio" data-key="${field.path}/${given}"
       data-given=${given} aria-checked=${given !== isOpen} tabindex=${given === isOpen ? -1 : 0}
       @click=${() => pick(given)}>${word(name)}</button>`;
@@ -107,7 +107,7 @@ function sizesOf(at, acts) {
     const isChosen = (each, k) => (key in drafts ? drafts[key] === k : each === value);
     const chosen = ({ target: { selectedIndex: k } }) => {
       drafts[key] = k;
-      changeNow(choices[k].changes || { [path]: choices[k].value });
+      change(choices[k].changes || { [path]: choices[k].value });
     };
     return html`<div class="size choosing${isWrong ? " wrong" : ""}"><label for=${id}>${letters(name)}</label>
       <select id=${id} data-key=${key} aria-invalid=${isWrong || nothing} @change=${chosen}>${
@@ -172,7 +172,7 @@ function sizesOf(at, acts) {
 
   function refuseText(field) {
     refuse({ key: keyOf(field), message: word("no_number") });
-    refused();
+    page.showStatus();
   }
 
   function keyAt(path) {

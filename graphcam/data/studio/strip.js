@@ -1,7 +1,7 @@
 // The views, small: a strip of them above the drawing, and a board of all of them.
 "use strict";
 
-function stripOf(at, open) {
+function stripOf({ at, open }) {
   const PLACES = ["strip", "board"];
   let names = [], shown = { beside: [], locked: () => false }, brought = null;
 

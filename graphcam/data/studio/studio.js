@@ -41,16 +41,12 @@
       }
     },
   };
-  const { decimal } = page;
 
   // What one part asks of another goes through the page, for the parts ask it of each other in turns.
   Object.assign(page, walkOf(page));
   Object.assign(page, {
-    strip: stripOf(at, page.open),
-    sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), leave: () => page.leave(), refused: () => page.showStatus(), word, decimal }),
-    stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
-    showValues: valuesPanelOf(at("panel-values"), words),
-    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, shown: () => page.last, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
+    strip: stripOf(page), sizes: sizesOf(page), stepPanel: stepPanelOf(page), showValues: valuesPanelOf(page),
+    whatIf: whatIfOf(page),
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
@@ -60,8 +56,8 @@
     const drag = ({ handle, to: [x, y], ...more }) => handle === "guess" ? page.guess.drag([x, y]) : page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
     pane.hands = handsOf(pane.at, pane.stage, {
       grab: ({ id }) => id === "guess" || page.grab(), drag, drop: (cancelled, id) => id === "guess" || page.drop(cancelled), key: (changes) => moved(changes, true), word,
-      written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
-      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), moved),
+      written: (axis) => `${shortNumber(axis.value, page.decimal())} ${axis.unit}`.replace(" °", "°").trim(),
+      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, page.decimal(), moved),
     });
   }
   page.heldHands = () => panes.map(({ hands }) => hands).find((hands) => hands.held());

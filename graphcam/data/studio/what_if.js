@@ -10,7 +10,8 @@ const VALUE_NAMES = {
   pressure_angle_return: "max_pressure_angle_return_deg", curvature_radius: "min_pitch_curvature_radius", max_v: "max_v",
 };
 
-function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, language }) {
+function whatIfOf(page) {
+  const { at, words, decimal, last } = page, state = page.state.get, { language } = page.config;
   let fields = [], asked = "", sweep = null, running = 0, values = [], pinnedValues = null;
 
   const byPath = (isWanted) => fields.find(({ path }) => isWanted(path));
@@ -61,7 +62,7 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
 
   // The curves are exact, and rounded is nothing; the cam on the page has sizes that were adopted.
   function saidOf({ id, unit }, here) {
-    const { values = [], sizes = {} } = shown(), value = values.find((each) => each.id === VALUE_NAMES[id]);
+    const { values = [], sizes = {} } = last, value = values.find((each) => each.id === VALUE_NAMES[id]);
     const own = VALUE_NAMES[id] ? value && Math.abs(value.exact) : sizes[id], exact = here === null ? "" : written(here, unit);
     const adopted = own === null || own === undefined ? exact : written(id === "curvature_radius" && here < 0 ? -own : own, unit);
     const more = () => html`<small>${words.not_rounded.replace("{value}", exact)}</small>`;
@@ -104,7 +105,7 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
   function take({ currentTarget, clientX }) {
     const field = fieldOf(), box = currentTarget.getBoundingClientRect(), share = (clientX - box.left) / box.width;
     const value = sweep.from + share * (sweep.to - sweep.from);
-    change(changesOf(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
+    page.change(changesOf(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
   }
 
   function chartsOf(field) {
@@ -123,18 +124,17 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
 
   function draw() {
     const field = fieldOf(), isChosen = (path) => path === field.path;
-    const pin = () => document.getElementById("pin").click();
     render(html`
       <label class="from"><span>${words.over}</span>
         <select id="sweep-size" data-key="sweep-size" @change=${chosen}>${
           options(fields.map(({ path, name }) => [path, name]), isChosen)}</select></label>
       <div class="charts">${chartsOf(field)}</div>
-      <button type="button" class="pins" ?hidden=${pinnedValues} @click=${pin}>${words.pin}</button>
-      <div>${both()}</div>`, element);
+      <button type="button" class="pins" ?hidden=${pinnedValues} @click=${() => at("pin").click()}>${words.pin}</button>
+      <div>${both()}</div>`, at("panel-what-if"));
   }
 
   function chosen({ target }) {
-    choose(target.value);
+    page.state.set({ swept: target.value });
     update();
   }
 
@@ -154,7 +154,8 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
     const place = (k) => min + (max - min) * k / (DESIGNS - 1);
     let found = null;
     for (let k = 0; k < DESIGNS; k += PIECE) {
-      const answer = await ask({ ask: "sweep", language, task, path, from: place(k), to: place(k + PIECE - 1), count: PIECE });
+      const from = place(k), to = place(k + PIECE - 1);
+      const answer = await page.queue.question({ ask: "sweep", language, task, path, from, to, count: PIECE });
       if (own !== running) return;
       found = answer.ok === false ? { path, message: answer.error.message } : joined(found, answer);
       if (!found.curves) break;
