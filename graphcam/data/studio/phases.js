@@ -90,5 +90,5 @@ function phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused }) {
       ${errorOf(isWrong, "phases-error")}</div>`;
   }
 
-  return { key, barOf, fields: () => given[chosen]?.fields || [] };
+  return { key, barOf, fieldsOf: (field) => field?.phases[chosen]?.fields || [] };
 }

@@ -15,7 +15,8 @@ function sizesOf(page) {
   const FIRST = /^(follower\.(offset|arm)|arcs)/;
   const keyOf = ({ key, path }) => key ?? path;
   const idOf = (field) => `size-${keyOf(field).replace(/\W+/g, "-")}`;
-  const rows = () => [...fields.filter(({ kind }) => kind !== "phases"), ...phases.fields()];
+  const sizes = () => fields.filter(({ kind }) => kind !== "phases");
+  const bar = () => fields.find(({ kind }) => kind === "phases");
   const wrongAt = (field) => wrong?.key === keyOf(field);
 
   // While a size is moved its numbers follow at once.
@@ -176,9 +177,9 @@ function sizesOf(page) {
   }
 
   function keyAt(path) {
-    const found = rows().filter((field) => field.path === path).map(keyOf);
-    const isOfPhases = path?.startsWith("motion.phases") && fields.some(({ kind }) => kind === "phases");
-    return found.includes(edited) ? edited : found[0] ?? (isOfPhases ? phases.key : undefined);
+    const found = [...sizes(), ...phases.fieldsOf(bar())].filter((field) => field.path === path).map(keyOf);
+    const ofPhases = path?.startsWith("motion.phases") && bar() ? phases.key : undefined;
+    return found.includes(edited) ? edited : found[0] ?? ofPhases;
   }
 
   // Whether there is a field for the error; the value stays as it was typed.  It is told there if that was changed, else
@@ -201,5 +202,5 @@ function sizesOf(page) {
     return `${name} ${number ? `${number} ${unit}`.trim() : chosen ?? word("found")}`;
   }
 
-  return { show, follow, showError, restore, said, refused: isRefused, fields: () => rows().filter(({ key }) => !key) };
+  return { show, follow, showError, restore, said, refused: isRefused, fields: sizes };
 }
