@@ -120,7 +120,9 @@ def test_the_wheel_holds_tasks_and_types(tmp_path):
     course = {path.name for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")} | {"hard_cases.toml"}
     assert {name.split("/")[-1] for name in held if name.startswith("graphcam/notebooks/course/")} == course
     licences = f"graphcam-{graphcam.__version__}.dist-info/licenses"
-    assert {f"{licences}/LICENSE", f"{licences}/graphcam/data/fonts/osifont-licence.txt"} <= held
+    others = ("graphcam/data/fonts/osifont-licence.txt", "graphcam/data/studio/vendor/lit-html-licence.txt")
+    assert {f"{licences}/{name}" for name in ("LICENSE", *others)} <= held
+    assert "graphcam/data/studio/vendor/lit-html.js" in held
     assert {name.split("/")[0] for name in held} == {"graphcam", f"graphcam-{graphcam.__version__}.dist-info"}
 
 

@@ -169,6 +169,8 @@ SCRIPT_FILES = (
     "files.js", "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
 )  # fmt: skip
 """The scripts in order; later ones use functions of earlier ones, and a mode's script is left out where none is."""
+LIBRARY_FILES = ("lit-html.js", "directive.js", "directive-helpers.js", "live.js", "repeat.js")
+"""lit-html 3.3.3 in order: files of its package as they are, in ``vendor``; those of a newer one take their place."""
 CONTENT_POLICY = (
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'; font-src data:; "
     "img-src data:; base-uri 'none'; form-action 'none'"
@@ -236,9 +238,20 @@ def _scripts() -> list[Markup]:
     """The scripts of the page, in order; those of the step player that it shares stand first."""
     own = files("graphcam") / "data" / "studio"
     return [
+        _library(),
         *map(_shared_script, SHARED_SCRIPT_FILES),
         *(_page_script(name) for name in SCRIPT_FILES if (own / name).is_file()),
     ]
+
+
+def _library() -> Markup:
+    """The library as a plain script: what its modules export is put into ``lit``, and they take it from there."""
+    from markupsafe import Markup
+
+    text = "\n".join(f"{{{_page_file('studio/vendor', name)}}}" for name in LIBRARY_FILES)
+    text = re.sub(r"import\{(.*?)\}from.*?;", lambda found: f"const{{{found[1].replace(' as ', ':')}}}=lit;", text)
+    text = re.sub(r"([^{,]+) as ([$\w]+)(?=[^{}]*\};)", r"\2:\1", text)
+    return Markup('"use strict";const lit={};\n' + re.sub(r"export(\{.*?\});", r"Object.assign(lit,\1);", text))
 
 
 def _page_script(name: str) -> Markup:

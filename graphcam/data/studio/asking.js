@@ -159,7 +159,8 @@ function askingOf(page) {
     page.failed = word("lost");
     page.showStatus();
     const again = () => (config.transport === "server" ? ask(wanted) : location.reload());
-    page.notice([word("lost"), error.message, before && word("ended")].filter(Boolean).join(" "), make("button", { type: "button", class: "main", text: word("again"), onclick: again }));
+    const button = html`<button type="button" class="main" @click=${again}>${word("again")}</button>`;
+    page.notice([word("lost"), error.message, before && word("ended")].filter(Boolean).join(" "), button);
   }
 
   // --- at rest: the address, the small views, the pinned cam ------------------------------------------------------------------

@@ -9,7 +9,6 @@ function camAngleOf(page) {
   const { at, word, state, last, decimal } = page, now = state.get;
   const turning = { on: false, before: null, exact: 0 };
   const curves = new WeakMap(), stood = new Map();
-  let sparks = [];
 
   // --- what is shown of it ----------------------------------------------------------------------------------------------
 
@@ -38,38 +37,36 @@ function camAngleOf(page) {
 
   // The mechanism has no steps: its panel says what is read off at this angle.
   function showLive() {
-    const data = last.mechanism, panel = at("panel-step"), { turned } = page.panes[0];
+    const data = last.mechanism, { turned } = page.panes[0];
     if (!data || !turned) return;
-    if (panel.shows !== data || !panel.querySelector(".live")) buildLive(data, panel);
     const k = turned.placeAt(now().phi);
-    lettered(panel.querySelector("h2"), turned.phaseAt(now().phi).name);
-    for (const said of panel.querySelectorAll("[data-live]")) said.textContent = turned.read(said.dataset.live, k);
-    sparks.forEach((move) => move(k));
+    const rowOf = (name) => html`<div><dt>${word(name)}</dt>
+      <dd><strong data-live=${name}>${turned.read(name, k)}</strong></dd>
+      <svg class="spark" viewBox="0 0 360 60" preserveAspectRatio="none" aria-hidden="true"></svg></div>`;
+    page.stepPanel.tell(html`<h2>${letters(turned.phaseAt(now().phi).name)}</h2>
+      <p class="about">${letters(data.about)}</p>
+      <dl class="live">${data.live.map(rowOf)}</dl>`);
+    at("panel-step").querySelectorAll(".spark").forEach((picture, j) => showSpark(picture, data, data.live[j], k));
   }
 
-  function buildLive(data, panel) {
-    panel.shows = data;
-    const rows = data.live.map((name) => {
-      const row = make("div", {}, make("dt", { text: word(name) }), make("dd", {}, make("strong", { "data-live": name })));
-      return { row, name, picture: drawSvg("svg", "spark", { viewBox: "0 0 360 60", preserveAspectRatio: "none", "aria-hidden": "true" }, row) };
-    });
-    page.stepPanel.tell(make("h2"), make("p", { class: "about", text: data.about }), make("dl", { class: "live" }, rows.map(({ row }) => row)));
-    sparks = rows.map(({ name, picture }) => sparkOf(picture, data, name));
+  function showSpark(picture, data, name, k) {
+    if (picture.data !== data) {
+      picture.replaceChildren();
+      Object.assign(picture, { data, moved: sparkOf(picture, data, name) });
+    }
+    picture.moved(k);
   }
 
   function showPhi() {
-    const { phi } = now(), phases = last.mechanism?.phases || [];
+    const { phi } = now(), phases = last.mechanism?.phases || [], wide = at("phases").clientWidth / 360;
+    const here = Math.max(0, phases.findLastIndex((phase) => phase.start <= phi));
+    const isMute = ({ symbol, extent }) => wide > 0 && isTight(symbol.replace("_", ""), wide * extent);
+    const barOf = (phase, k) => html`<span class="${isMute(phase) ? "mute" : ""}${k === here ? " here" : ""}"
+      style="flex-grow: ${phase.extent}" title=${phase.name}>${letters(phase.symbol)}</span>`;
+    render(phases.map(barOf), at("phases"));
     at("phi").value = phi;
     at("phi-said").textContent = `${shortNumber(Math.round(phi * 10) / 10, decimal())}°`;
     at("phi").setAttribute("aria-valuetext", `φ = ${at("phi-said").textContent}`);
-    if (at("phases").phases !== JSON.stringify(phases)) {
-      at("phases").phases = JSON.stringify(phases);
-      at("phases").replaceChildren(...phases.map((phase) => make("span", { style: `flex-grow: ${phase.extent}`, title: phase.name, text: phase.symbol })));
-    }
-    const wide = at("phases").clientWidth / 360;
-    [...at("phases").children].forEach((bar, k) => bar.classList.toggle("mute", wide > 0 && isTight(phases[k].symbol.replace("_", ""), wide * phases[k].extent)));
-    const here = Math.max(0, phases.findLastIndex((phase) => phase.start <= phi));
-    [...at("phases").children].forEach((bar, k) => bar.classList.toggle("here", k === here));
     if (last.mechanism) page.strip.mechanism(last.mechanism, phi);
   }
 

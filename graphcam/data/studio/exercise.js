@@ -32,99 +32,96 @@ async function checkAnswers(exercise, given, ask) {
 // --- the mode ----------------------------------------------------------------------------------------------------------------
 
 studioModes.exercise = (() => {
-  let studio = null;
+  // What was typed and what is told of it, by the answers' names.
+  let exercise = null, typed = {}, told = {}, result = "", checking = false;
 
-  const word = (name) => studio.words[name] ?? name;
-  const rowOf = (name) => document.querySelector(`#card [data-answer="${CSS.escape(name)}"]`);
-
-  function askedOf(asked) {
-    if (asked.drawn) return make("li", {}, make("p", { text: asked.text }), make("p", { class: "sentence", text: word("draw_it") }));
-    return make("li", { "data-answer": asked.name }, make("label", {}, make("span", { text: asked.text }),
-      make("input", { type: "text", inputmode: "decimal", name: asked.name, autocomplete: "off", "aria-describedby": `told-${asked.name}` }),
-      make("span", { class: "unit", text: asked.unit }), make("span", { class: "hint", text: word("decimals").replace("{count}", asked.decimals) })),
-    make("p", { id: `told-${asked.name}` }, make("span", { class: "verdict" }), " ", make("span", { class: "sentence" })));
-  }
+  const isChecked = () => exercise.answers.some((asked) => asked.check);
 
   // What was typed is kept in this browser, by the exercise.
-  const keyOf = ({ title, salt, answers }) => `answers ${title || ""} ${salt || JSON.stringify(answers.map((asked) => asked.text))}`;
-  const fields = () => [...document.querySelectorAll("#card [data-answer] input")];
+  const key = () =>
+    `answers ${exercise.title || ""} ${exercise.salt || JSON.stringify(exercise.answers.map((asked) => asked.text))}`;
 
-  function keep(exercise) {
+  function keep({ target: { name, value } }) {
+    typed[name] = value;
     try {
-      localStorage.setItem(keyOf(exercise), JSON.stringify(Object.fromEntries(fields().map((field) => [field.name, field.value]))));
+      localStorage.setItem(key(), JSON.stringify(typed));
     } catch { /* a browser may forbid it */ }
   }
 
-  function restore(exercise) {
+  function kept() {
     try {
-      const kept = JSON.parse(localStorage.getItem(keyOf(exercise)) || "{}");
-      for (const field of fields()) field.value = kept[field.name] ?? "";
-    } catch { /* as above */ }
+      return JSON.parse(localStorage.getItem(key()) || "{}");
+    } catch {
+      return {};
+    }
   }
 
-  function showCard(exercise) {
-    const checks = exercise.answers.some((asked) => asked.check);
-    studio.panel.card(make("form", { class: "mode-card", "aria-label": word("exercise"), novalidate: true, onsubmit: check, oninput: () => keep(exercise) },
-      make("h2", { text: exercise.title || word("exercise") }),
-      exercise.text && make("p", { text: exercise.text }),
-      make("ol", { class: "asked", "aria-label": word("answers") }, exercise.answers.map(askedOf)),
-      checks && make("div", { class: "rows" }, make("button", { type: "submit", class: "main", id: "check", text: word("check") })),
-      make("p", { id: "checked", role: "status" }),
-      make("p", { class: "hint", text: word(checks ? "practice" : "no_checks") })));
+  // --- the card ------------------------------------------------------------------------------------------------------
+
+  function askedOf({ name, text, unit, decimals, drawn }) {
+    if (drawn) return html`<li><p>${letters(text)}</p><p class="sentence">${wordOf("draw_it")}</p></li>`;
+    const { kind = "", verdict = "", sentence = "" } = told[name] || {};
+    return html`<li data-answer=${name}>
+      <label><span>${letters(text)}</span><input type="text" inputmode="decimal" name=${name} autocomplete="off"
+        aria-describedby="told-${name}" aria-invalid=${kind === "wrong" || nothing} .value=${live(typed[name] ?? "")}>
+        <span class="unit">${letters(unit)}</span>
+        <span class="hint">${wordOf("decimals").replace("{count}", decimals)}</span></label>
+      <p id="told-${name}"><span class="verdict ${kind}">${verdict}</span>
+        <span class="sentence">${letters(sentence)}</span></p></li>`;
   }
 
-  function tell(name, kind, text, sentence = "") {
-    const row = rowOf(name), verdict = row.querySelector(".verdict");
-    verdict.className = `verdict ${kind}`;
-    verdict.textContent = text;
-    lettered(row.querySelector(".sentence"), sentence);
-    if (kind === "wrong") row.querySelector("input").setAttribute("aria-invalid", "true");
-    else row.querySelector("input").removeAttribute("aria-invalid");
+  function showCard(more) {
+    const { title, text, answers } = exercise, checks = isChecked(), name = wordOf("exercise");
+    const button = html`<button class="main" id="check" ?disabled=${checking}>${wordOf("check")}</button>`;
+    studio.panel.card(html`<form class="mode-card" aria-label=${name} novalidate @submit=${check} @input=${keep}>
+      <h2>${letters(title || name)}</h2>
+      ${text ? html`<p>${letters(text)}</p>` : nothing}
+      <ol class="asked" aria-label=${wordOf("answers")}>${answers.map(askedOf)}</ol>
+      ${checks ? html`<div class="rows">${button}</div>` : nothing}
+      <p id="checked" role="status">${result}</p>
+      <p class="hint">${wordOf(checks ? "practice" : "no_checks")}</p></form>`, more);
   }
 
   // What was typed, as numbers; what is none is told so.
-  function numbersGiven(exercise) {
-    const given = {};
-    for (const { name, drawn } of exercise.answers) {
-      if (drawn) continue;
-      const typed = rowOf(name).querySelector("input").value, value = typedNumber(typed);
-      tell(name, "", "");
-      if (!typed.trim()) continue;
-      if (Number.isNaN(value)) tell(name, "wrong", word("not_a_number"));
-      else given[name] = value;
-    }
-    return given;
+  function numbersGiven() {
+    const written = exercise.answers.filter(({ name, drawn }) => !drawn && typed[name]?.trim());
+    const isNumber = ({ name }) => !Number.isNaN(typedNumber(typed[name]));
+    const wrong = { kind: "wrong", verdict: wordOf("not_a_number") };
+    told = Object.fromEntries(written.filter((asked) => !isNumber(asked)).map(({ name }) => [name, wrong]));
+    return Object.fromEntries(written.filter(isNumber).map(({ name }) => [name, typedNumber(typed[name])]));
   }
 
   async function check(event) {
     event.preventDefault();
-    const { exercise } = studio.state.get(), given = numbersGiven(exercise), button = document.getElementById("check");
-    if (!button || button.disabled) return;
-    button.disabled = true;
+    if (checking || !isChecked()) return;
+    const given = numbersGiven();
+    checking = true;
+    showCard({ stays: true });
     try {
-      const found = await checkAnswers(exercise, given, studio.ask);
+      const found = await checkAnswers(exercise, given, studio.ask), all = Object.values(found);
       for (const [name, { right, hint }] of Object.entries(found)) {
-        tell(name, right ? "right" : "wrong", word(right ? "answer_right" : "answer_wrong"), exercise.hints?.[hint] || "");
+        const verdict = wordOf(right ? "answer_right" : "answer_wrong"), sentence = exercise.hints?.[hint] || "";
+        told[name] = { kind: right ? "right" : "wrong", verdict, sentence };
       }
-      const all = Object.values(found);
-      document.getElementById("checked").textContent = word("checked").replace("{right}", all.filter((each) => each.right).length).replace("{checked}", all.length);
+      const count = all.filter((each) => each.right).length;
+      result = wordOf("checked").replace("{right}", count).replace("{checked}", all.length);
     } finally {
-      button.disabled = false;
+      checking = false;
+      showCard({ stays: true });
     }
   }
 
   // Only what is given is drawn, and nothing tells more.
-  function enter(own) {
-    studio = own;
-    const { exercise } = studio.state.get();
-    if (!exercise || !Array.isArray(exercise.answers)) return studio.panel.card(make("p", { text: word("no_exercise") }));
+  function enter() {
+    ({ exercise } = studio.state.get());
+    if (!exercise || !Array.isArray(exercise.answers)) return studio.panel.card(html`<p>${wordOf("no_exercise")}</p>`);
     studio.state.set({
       upto: exercise.upto || null, inert: true, pin: null, board: false, panel: "step", view: null, step: null, part: null,
       hidden: ["mechanism", "values", "what-if", "warnings", "board"],
     });
-    showCard(exercise);
-    restore(exercise);
-    studio.announce(exercise.title || word("exercise"));
+    [typed, told, result] = [kept(), {}, ""];
+    showCard();
+    studio.announce(exercise.title || wordOf("exercise"));
     showLastGiven();
   }
 

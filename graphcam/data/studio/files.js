@@ -4,8 +4,8 @@
 function filesOf(page) {
   const { at, word, config, state, queue, wire } = page, now = state.get;
 
-  function said(text, wrong = false) {
-    at("written").textContent = text;
+  function said(text, wrong = false, more = nothing) {
+    render([text, more], at("written"));
     at("written").classList.toggle("over", wrong);
   }
   const refused = ({ error }) => said([error.message, error.remedy].filter(Boolean).join("; "), true);
@@ -16,9 +16,9 @@ function filesOf(page) {
   async function save() {
     const answer = await queue.question({ ask: "task_file", task: now().task });
     if (answer.ok === false) return refused(answer);
-    const link = make("a", { href: URL.createObjectURL(new Blob([answer.text], { type: "application/toml" })), download: answer.name });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    const href = URL.createObjectURL(new Blob([answer.text], { type: "application/toml" }));
+    Object.assign(document.createElement("a"), { href, download: answer.name }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 1000);
     said(word("saved"));
   }
 
@@ -34,8 +34,10 @@ function filesOf(page) {
 
   // Files of others are replaced only when that is asked for.
   function askAbout({ others, folder }, kind) {
-    said(word("others_there").replace("{folder}", folder).replace("{files}", others.slice(0, 5).join(", ") + (others.length > 5 ? " ..." : "")), true);
-    at("written").append(" ", make("button", { type: "button", id: "replace", text: word("replace_them"), onclick: () => write(kind, true) }));
+    const all = others.slice(0, 5).join(", ") + (others.length > 5 ? " ..." : "");
+    const text = word("others_there").replace("{folder}", folder).replace("{files}", all);
+    const writeAll = () => write(kind, true);
+    said(text, true, html` <button type="button" id="replace" @click=${writeAll}>${word("replace_them")}</button>`);
     at("replace").focus();
   }
 
@@ -57,7 +59,7 @@ function filesOf(page) {
     try { await navigator.clipboard.writeText(location.href); } catch { /* the address line has it */ }
     const text = word(hash ? "link_copied" : "link_too_long");
     page.announce(text);
-    lettered(at("told-limits"), text);
+    render(text, at("told-limits"));
     setTimeout(page.showStatus, 2500);
   }
 

@@ -79,20 +79,22 @@ function guessOf(studio, asked, letter, moved) {
   function show() {
     comeInSight();
     const at = shown();
-    layer.replaceChildren();
+    render(at ? marksAt(at) : nothing, layer);
     studio.setGuess(at && {
       handle: { id: "guess", view: asked.view, name: words.guess, letter, at: at.guess, axes: places.axes.map((axis, k) => ({ ...axis, value: values[k] })) },
       drag: (to) => set(places.values(to)), change: (changes) => set(places.axes.map(({ path }, k) => changes[path] ?? values[k])),
     });
-    if (!at) return;
-    const line = (from, to, kind) => drawSvg("path", kind, { d: `M${from.join(" ")}L${to.join(" ")}` }, layer);
-    if (asked.pole && view() === asked.view) {
-      line(asked.pole, at.guess, "ray");
-      if (at.answer) line(asked.pole, at.answer, "found-ray");
-    } else if (!marks && !asked.free) drawSvg("path", "way", { d: `M${asked.way.map((point) => point.join(" ")).join("L")}` }, layer);
-    if (!at.answer) return;
-    line(at.guess, at.answer, "apart");
-    drawSvg("circle", "answer", { cx: at.answer[0], cy: at.answer[1], r: 7 / stage.scale({ frame: stage.frame() }) }, layer);
+  }
+
+  function marksAt({ guess, answer }) {
+    const line = (name, ...points) => svg`<path class=${name} d=${pathOf(points)}></path>`, { pole, way, free } = asked;
+    const round = ([x, y], r) => svg`<circle class="answer" cx=${x} cy=${y} r=${r}></circle>`;
+    const rays = () => [line("ray", pole, guess), answer ? line("found-ray", pole, answer) : nothing];
+    return [
+      pole && view() === asked.view ? rays() : !marks && !free ? line("way", ...way) : nothing,
+      answer ? line("apart", guess, answer) : nothing,
+      answer ? round(answer, 7 / stage.scale({ frame: stage.frame() })) : nothing,
+    ];
   }
 
   show();

@@ -36,87 +36,49 @@ function axisOfKey(axes, key, focused) {
   return axes.length > 1 && found >= 0 ? found : focused;
 }
 
+const ALONG_X = "M-15-4l-4 4 4 4M15-4l4 4-4 4", ALONG_Y = "M-4-15l4-4 4 4M-4 15l4 4 4-4";
+const WAYS = { x: ALONG_X, y: ALONG_Y, xy: ALONG_X + ALONG_Y, along: ALONG_X, turn: ALONG_X };
+
 function handsOf(at, stage, acts) {
   const { grab, drag, drop, key, type, written, word } = acts;
-  const knobs = new Map();
+  // Of a handle with two axes one is a tab stop: that which was used last.
+  const stops = new Map();
   let handles = [], held = null;
 
   // --- a knob -------------------------------------------------------------------------------------------------------
 
-  const WAYS = { x: "M-15-4l-4 4 4 4M15-4l4 4-4 4", y: "M-4-15l4-4 4 4M-4 15l4 4 4-4" };
-  const waysOf = (handle) =>
-    ({ x: WAYS.x, y: WAYS.y, xy: WAYS.x + WAYS.y, along: WAYS.x, turn: WAYS.x })[handle.shape] || "";
-  const turnOf = (handle) =>
-    (handle.along ? Math.atan2(handle.along[1], handle.along[0]) * 180 / Math.PI : 0);
+  const current = (id) => handles.find((one) => one.id === id);
+  const knobAt = (id) => at("hands").querySelector(`[data-id="${id}"]`);
+  const turnOf = ({ along }) => (along ? Math.atan2(along[1], along[0]) * 180 / Math.PI : 0).toFixed(1);
 
-  function sliderOf(handle, k) {
-    const input = make("input", {
-      type: "range", class: "unseen", step: "any", "data-axis": k, "data-key": `${handle.id}/${k}`,
-      tabindex: k ? -1 : 0, "aria-label": handle.axes[k].name,
-      "aria-orientation": handle.axes[k].screen === "y" ? "vertical" : null,
-    });
-    input.addEventListener("keydown", (event) => pressed(event, handle.id, k));
+  function sliderOf({ id, axes }, k) {
+    const { name, screen, min, max, value } = axes[k];
     // A reader of the screen moves the slider itself.
-    input.addEventListener("input", () => key(changesOf(current(handle.id).axes[k], Number(input.value))));
-    return input;
+    const moved = ({ target }) => key(changesOf(current(id).axes[k], Number(target.value)));
+    return html`<input type="range" class="unseen" step="any" data-axis=${k} data-key="${id}/${k}" aria-label=${name}
+      tabindex=${k === (stops.get(id) ?? 0) ? 0 : -1} aria-orientation=${screen === "y" ? "vertical" : nothing}
+      aria-valuetext="${name} ${written(axes[k])}" min=${min} max=${max} .value=${live(String(value))}
+      @keydown=${(event) => pressed(event, id, k)} @input=${moved}>`;
   }
 
   function knobOf(handle) {
-    const two = handle.axes.length > 1;
-    const knob = make("div", {
-      class: handle.letter ? "hand guess" : "hand", "data-id": handle.id, title: handle.name, role: two ? "group" : null, "aria-label": two ? handle.name : null,
-      "aria-roledescription": two ? word("slider_2d") : null,
-    });
-    const picture = drawSvg("svg", "knob", { viewBox: "-22 -22 44 44", "aria-hidden": "true" }, knob);
-    drawSvg("circle", "halo", { r: 15 }, picture);
-    drawSvg("circle", "ring", { r: 8 }, picture);
-    drawSvg("path", "ways", {}, picture);
-    if (handle.letter) drawSvg("text", "letter", { y: 4.5 }, picture).textContent = handle.letter;
-    knob.append(...handle.axes.map((_, k) => sliderOf(handle, k)));
-    knob.addEventListener("pointerdown", (event) => down(event, handle.id));
-    knob.addEventListener("dblclick", () => type(current(handle.id), knob));
-    at("hands").append(knob);
-    return knob;
+    const { id, name, letter, limit, axes, shape } = handle, [x, y] = stage.toScreen(handle.at);
+    const isTwo = axes.length > 1;
+    const kind = `${letter ? " guess" : ""}${held?.id === id ? " down" : ""}${limit ? " over" : ""}`;
+    return html`<div class="hand${kind}" data-id=${id} title=${name} role=${isTwo ? "group" : nothing}
+      aria-label=${isTwo ? name : nothing} aria-roledescription=${isTwo ? word("slider_2d") : nothing}
+      style="transform: translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)"
+      @pointerdown=${(event) => down(event, id)} @dblclick=${() => type(current(id), knobAt(id))}>
+      <svg class="knob" viewBox="-22 -22 44 44" aria-hidden="true">
+        <circle class="halo" r="15"></circle><circle class="ring" r="8"></circle>
+        <path class="ways" d=${WAYS[shape] ?? ""} transform="rotate(${turnOf(handle)})"></path>
+        ${letter ? svg`<text class="letter" y="4.5">${letter}</text>` : nothing}</svg>${
+      axes.map((_, k) => sliderOf(handle, k))}</div>`;
   }
 
-  const current = (id) => handles.find((one) => one.id === id);
-  const shapeOf = (handle) => JSON.stringify([handle.axes.map((axis) => axis.path), handle.name, handle.letter]);
-
-  function place(handle, [x, y] = stage.toScreen(handle.at)) {
-    const knob = knobs.get(handle.id);
-    knob.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-    const ways = knob.querySelector(".ways");
-    ways.setAttribute("d", waysOf(handle));
-    ways.setAttribute("transform", `rotate(${turnOf(handle).toFixed(1)})`);
-    knob.classList.toggle("down", held?.id === handle.id);
-    knob.classList.toggle("over", Boolean(handle.limit));
-    handle.axes.forEach((axis, k) => {
-      const input = knob.querySelectorAll("input")[k];
-      Object.assign(input, { min: axis.min, max: axis.max, value: axis.value });
-      input.setAttribute("aria-valuetext", `${axis.name} ${written(axis)}`);
-    });
-  }
-
-  function show(found) {
+  function show(found = handles) {
     handles = found;
-    const kept = new Map(found.map((handle) => [handle.id, shapeOf(handle)]));
-    for (const [id, knob] of knobs) {
-      if (kept.get(id) === knob.shape) continue;
-      knob.remove();
-      knobs.delete(id);
-    }
-    for (const handle of found) {
-      if (knobs.has(handle.id)) continue;
-      knobs.set(handle.id, knobOf(handle));
-      knobs.get(handle.id).shape = shapeOf(handle);
-    }
-    placeAll();
-  }
-
-  // All places are reckoned before one is written: each writing lets the browser lay out the page anew for the next.
-  function placeAll() {
-    const there = handles.filter(({ id }) => knobs.has(id)), places = there.map(({ at: mark }) => stage.toScreen(mark));
-    there.forEach((handle, k) => place(handle, places[k]));
+    render(repeat(handles, ({ id }) => id, knobOf), at("hands"));
     chip();
   }
 
@@ -125,7 +87,7 @@ function handsOf(at, stage, acts) {
     const handle = held?.moved && current(held.id), label = at("chip");
     label.hidden = !handle;
     if (!handle) return;
-    lettered(label, handle.axes.map((axis) => `${axis.name} ${written(axis)}`).join(" · "));
+    render(letters(handle.axes.map((axis) => `${axis.name} ${written(axis)}`).join(" · ")), label);
     const [x, y] = stage.toScreen(handle.at), half = label.offsetWidth / 2 + 6, wide = at("stage").clientWidth;
     const above = y - (held.touch ? 56 : 30);
     label.style.left = `${Math.max(half, Math.min(wide - half, x))}px`;
@@ -140,14 +102,14 @@ function handsOf(at, stage, acts) {
     event.preventDefault();
     const [x, y] = stage.toScreen(handle.at), box = at("hands").getBoundingClientRect();
     if (!grab(handle)) return;
-    const knob = knobs.get(id);
+    const knob = knobAt(id);
     held = {
       id, moved: false, touch: event.pointerType === "touch", pointer: event.pointerId,
       from: [event.clientX, event.clientY], off: [box.left + x - event.clientX, box.top + y - event.clientY],
     };
     knob.setPointerCapture(event.pointerId);
     (knob.querySelector("input[tabindex='0']") || knob.querySelector("input")).focus({ preventScroll: true });
-    place(handle);
+    show();
   }
 
   function move(event) {
@@ -163,8 +125,7 @@ function handsOf(at, stage, acts) {
     if (!held || (event && event.pointerId !== held.pointer)) return;
     const { id, moved } = held;
     held = null;
-    knobs.get(id)?.classList.remove("down");
-    chip();
+    show();
     drop(cancelled || !moved, id);
   }
 
@@ -178,25 +139,21 @@ function handsOf(at, stage, acts) {
   function pressed(event, id, focused) {
     const handle = current(id);
     if (!handle || held || event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.key === "Enter") return type(handle, knobs.get(id));
+    if (event.key === "Enter") return type(handle, knobAt(id));
     const k = axisOfKey(handle.axes, event.key, focused), axis = handle.axes[k];
     const value = valueByKey(axis, event.key, event.shiftKey);
     if (value === undefined) return;
     event.preventDefault();
     event.stopPropagation();
-    focusAxis(knobs.get(id), k);
+    stops.set(id, k);
     // The next key counts on, also before the engine has answered.
     axis.value = value;
+    show();
+    knobAt(id).querySelectorAll("input")[k].focus({ preventScroll: true });
     key(changesOf(axis, value));
   }
 
-  // One tab stop for all axes: that which was used last.
-  function focusAxis(knob, k) {
-    knob.querySelectorAll("input").forEach((input, j) => (input.tabIndex = j === k ? 0 : -1));
-    knob.querySelectorAll("input")[k].focus({ preventScroll: true });
-  }
-
-  stage.onMove(placeAll);
+  stage.onMove(() => show());
 
   return {
     show, cancel: () => up(null, true), held: () => held, away: (yes) => at("hands").classList.toggle("away", yes),
@@ -208,15 +165,16 @@ function handsOf(at, stage, acts) {
 
 // A small form beside the knob, with a field for every size; `done` is given what was typed.
 function typeNumbers(form, handle, beside, words, decimal, done) {
-  const fields = handle.axes.map((axis) => {
-    const input = make("input", { type: "text", inputmode: "decimal", value: shortNumber(axis.value, decimal), "data-path": axis.path });
-    return make("label", {}, lettered(make("span"), axis.name), input, make("span", { class: "unit", text: axis.unit }));
-  });
   const close = () => {
     form.hidden = true;
     beside.querySelector("input[tabindex='0']")?.focus();
   };
-  form.replaceChildren(...fields, make("button", { class: "main", text: words.ok }));
+  const fieldOf = ({ name, path, unit, value }) => html`<label><span>${letters(name)}</span>
+    <input type="text" inputmode="decimal" value=${shortNumber(value, decimal)} data-path=${path}>
+    <span class="unit">${letters(unit)}</span></label>`;
+  // What was typed at another knob is gone.
+  render(nothing, form);
+  render(html`${handle.axes.map(fieldOf)}<button class="main">${words.ok}</button>`, form);
   form.hidden = false;
   const [x, y] = beside.style.transform.match(/-?[\d.]+(?=px)/g).map(Number), room = form.parentElement;
   form.style.left = `${Math.max(8, Math.min(room.clientWidth - form.offsetWidth - 8, x - form.offsetWidth / 2))}px`;

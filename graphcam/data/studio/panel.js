@@ -3,80 +3,71 @@
 
 // --- the step -----------------------------------------------------------------------------------------------------------
 
-const lights = (lit) => (lit?.length ? { tabindex: "0", "data-lit": JSON.stringify(lit) } : {});
+const tabStop = (lit) => (lit?.length ? "0" : nothing);
+const lights = (lit) => (lit?.length ? JSON.stringify(lit) : nothing);
 
-function readingOf(reading, words) {
-  const table = reading.table?.length > 0 && make("details", {},
-    make("summary", { text: `${words.all_values} (${reading.table.length})` }),
-    make("table", {},
-      make("thead", {}, make("tr", {}, ["place", "paper", "value"].map((name) => make("th", { scope: "col", text: words[name] })))),
-      make("tbody", {}, reading.table.map((row) => make("tr", lights(row.lit),
-        make("th", { scope: "row", text: row.place }), make("td", { text: row.paper }), make("td", { text: row.value }))))));
-  return make("div", lights(reading.lit),
-    make("dt", { text: reading.title }),
-    make("dd", {}, reading.taken && make("span", { class: "taken", text: `${reading.taken} =` }), " ",
-      make("strong", { text: reading.value }), table));
+function readingOf({ title, taken, value, lit, table = [] }, words) {
+  const head = () => ["place", "paper", "value"].map((name) => html`<th scope="col">${words[name]}</th>`);
+  const rowOf = ({ place, paper, value, lit }) => html`<tr tabindex=${tabStop(lit)} data-lit=${lights(lit)}>
+    <th scope="row">${letters(place)}</th><td>${letters(paper)}</td><td>${letters(value)}</td></tr>`;
+  const places = () => html`<details><summary>${words.all_values} (${table.length})</summary>
+    <table><thead><tr>${head()}</tr></thead><tbody>${table.map(rowOf)}</tbody></table></details>`;
+  return html`<div tabindex=${tabStop(lit)} data-lit=${lights(lit)}><dt>${letters(title)}</dt><dd>${
+    taken ? html`<span class="taken">${letters(taken)} =</span>` : nothing} <strong>${letters(value)}</strong>${
+    table.length ? places() : nothing}</dd></div>`;
 }
 
-function stepPanelOf(element, words, go) {
-  let told = null;
-
-  const partButton = (k, ...inside) => make("button", { type: "button", "data-part": k, "data-key": `part/${k}`, onclick: () => go(k) }, ...inside);
-  const toolsOf = ({ tools }) => tools.length > 0 && [" ", make("span", { class: "tools-set", text: tools.join(" · ") })];
+function stepPanelOf({ at, words, go, currentStep }) {
+  const element = at("panel-step");
+  const goTo = (part) => () => go(currentStep(), part);
+  const partButton = (k, inside) =>
+    html`<button type="button" data-part=${k} data-key="part/${k}" @click=${goTo(k)}>${inside}</button>`;
+  const toolsOf = ({ tools }) =>
+    (tools.length ? html` <span class="tools-set">${letters(tools.join(" · "))}</span>` : nothing);
 
   // A run is told once, with a table of its places.
   function runItem({ caption, first, head, rows, tools, widest }, parts) {
-    return make("li", { class: "run" },
-      make("p", { class: "sentences" }, make("span", { class: "said", text: caption }), toolsOf({ tools })),
-      head && make("p", { class: "head", "aria-hidden": "true", text: head }),
-      make("ol", { class: "row-table", style: `--row: ${widest}` }, rows.map(([name, setting], k) => make("li", {}, partButton(first + k,
-        make("span", { class: "unseen done-here", text: parts[first + k].caption }),
-        make("b", { "aria-hidden": "true", text: name }), setting && [" ", make("span", { "aria-hidden": "true", text: setting })])))));
+    const rowOf = ([name, setting], k) => html`<li>${partButton(first + k, html`<span class="unseen done-here">${
+      letters(parts[first + k].caption)}</span><b aria-hidden="true">${letters(name)}</b>${
+      setting ? html` <span aria-hidden="true">${letters(setting)}</span>` : nothing}`)}</li>`;
+    return html`<li class="run">
+      <p class="sentences"><span class="said">${letters(caption)}</span>${toolsOf({ tools })}</p>
+      ${head ? html`<p class="head" aria-hidden="true">${letters(head)}</p>` : nothing}
+      <ol class="row-table" style="--row: ${widest}">${rows.map(rowOf)}</ol></li>`;
   }
 
-  function partsOf({ parts, runs }) {
-    if (parts.length < 2) return [];
-    const inRun = (k) => runs?.find(({ first, rows }) => first <= k && k < first + rows.length);
-    const items = parts.map((part, k) => {
-      const run = inRun(k);
-      if (run) return run.first === k && runItem(run, parts);
-      return make("li", {}, partButton(k, make("span", { class: "at", text: k + 1 }), " ", make("span", { class: "said done-here", text: part.caption }), toolsOf(part)));
-    });
-    return [
-      make("div", { class: "part-by-part" }, make("h3", { id: "parts-title", text: words.part_by_part }),
-        make("button", { type: "button", class: "whole-step", "data-key": "whole", text: words.whole_step, onclick: () => go(null) })),
-      make("ol", { class: "parts", "aria-labelledby": "parts-title" }, items),
-    ];
+  function itemOf(part, k, { parts, runs }) {
+    const run = runs?.find(({ first, rows }) => first <= k && k < first + rows.length);
+    if (run) return run.first === k ? runItem(run, parts) : nothing;
+    return html`<li>${partButton(k, html`<span class="at">${k + 1}</span> <span class="said done-here">${
+      letters(part.caption)}</span>${toolsOf(part)}`)}</li>`;
   }
 
-  function articleOf(step) {
-    return make("article", {},
-      make("p", { class: "chapter", text: step.chapter || "" }),
-      step.opens && make("p", { class: "purpose", text: step.opens }),
-      make("h2", {}, make("span", { class: "number", text: step.number || "" }), " ", make("span", { class: "name", text: step.title || "" })),
-      step.caption && make("p", { class: "caption", text: step.caption }),
-      partsOf(step),
-      step.why && make("p", { class: "reason" }, make("strong", { text: words.why }), " ", make("span", { text: step.why })),
-      step.readings?.length > 0 && [make("h3", { text: words.readings }), make("dl", {}, step.readings.map((reading) => readingOf(reading, words)))]);
-  }
+  const partsOf = (step, isWhole) => html`
+    <div class="part-by-part"><h3 id="parts-title">${words.part_by_part}</h3>
+      <button type="button" class="whole-step" data-key="whole" aria-pressed=${isWhole}
+        @click=${goTo(null)}>${words.whole_step}</button></div>
+    <ol class="parts" aria-labelledby="parts-title">${step.parts.map((part, k) => itemOf(part, k, step))}</ol>`;
 
-  // The step is told anew only if something else is said of it.
+  const articleOf = (step, isWhole) => html`<article>
+    <p class="chapter">${letters(step.chapter || "")}</p>
+    ${step.opens ? html`<p class="purpose">${letters(step.opens)}</p>` : nothing}
+    <h2><span class="number">${step.number || ""}</span> <span class="name">${letters(step.title || "")}</span></h2>
+    ${step.caption ? html`<p class="caption">${letters(step.caption)}</p>` : nothing}
+    ${step.parts.length > 1 ? partsOf(step, isWhole) : nothing}
+    ${step.why ? html`<p class="reason"><strong>${words.why}</strong> <span>${letters(step.why)}</span></p>` : nothing}
+    ${step.readings?.length ? html`<h3>${words.readings}</h3>
+      <dl>${step.readings.map((reading) => readingOf(reading, words))}</dl>` : nothing}</article>`;
+
+  // Another step is told in elements of its own: what was unfolded in one is not in the next.
   function show(step, part) {
-    const { svg, hash, ...said } = step, news = JSON.stringify(said);
-    if (news !== told) keepingFocus(element, () => element.replaceChildren(articleOf(step)));
-    told = news;
-    element.querySelector(".whole-step")?.setAttribute("aria-pressed", part === null);
+    render(repeat([step], ({ number, title }) => `${number} ${title}`, () => articleOf(step, part === null)), element);
     const items = itemsOf(element);
     markParts(items, part);
     if (part) items[part]?.scrollIntoView({ block: "nearest" });
   }
 
-  function tell(...elements) {
-    told = null;
-    element.replaceChildren(...elements);
-  }
-
-  return { show, tell };
+  return { show, tell: (said) => render(said, element) };
 }
 
 // --- the values -----------------------------------------------------------------------------------------------------------
@@ -85,15 +76,18 @@ function stepPanelOf(element, words, go) {
 const pinnedColumn = (pinned) => ["pinned", "pin", ({ id }) => pinned.find((value) => value.id === id)?.said.drawn ?? "–"];
 
 function valuesTable(values, columns, words) {
-  const head = [["quantity", null], ...columns].map(([name, kind]) => make("th", { scope: "col", class: kind === "pin" ? kind : null, text: words[name] }));
-  const rowOf = (value) => make("tr", {}, make("th", { scope: "row", text: value.title }), columns.map(([, kind, said]) => make("td", { class: kind, text: said(value) })));
-  return make("table", { class: "compare" }, make("thead", {}, make("tr", {}, head)), make("tbody", {}, values.map(rowOf)));
+  const headOf = ([name, kind]) => html`<th scope="col" class=${kind === "pin" ? kind : nothing}>${words[name]}</th>`;
+  const rowOf = (value) => html`<tr><th scope="row">${letters(value.title)}</th>${columns.map(([, kind, said]) =>
+    html`<td class=${kind ?? nothing}>${letters(said(value))}</td>`)}</tr>`;
+  return html`<table class="compare"><thead><tr>${[["quantity", null], ...columns].map(headOf)}</tr></thead>
+    <tbody>${values.map(rowOf)}</tbody></table>`;
 }
 
-function valuesPanelOf(element, words) {
-  const place = make("div", { class: "scrolled", tabindex: "0", role: "region", "aria-label": words.values });
-  element.append(place, make("p", { class: "hint", text: words.values_about }));
+function valuesPanelOf({ at, words }) {
   const columns = [["drawn", "now", ({ said }) => said.drawn], ["exact", null, ({ said }) => said.exact]];
   const bound = ["bound", "bound", ({ said }) => said.bound ?? ""];
-  return (values, pinned) => place.replaceChildren(valuesTable(values, [...columns, pinned ? pinnedColumn(pinned) : bound], words));
+  return (values, pinned) => render(html`
+    <div class="scrolled" tabindex="0" role="region" aria-label=${words.values}>${
+      valuesTable(values, [...columns, pinned ? pinnedColumn(pinned) : bound], words)}</div>
+    <p class="hint">${letters(words.values_about)}</p>`, at("panel-values"));
 }

@@ -13,108 +13,82 @@ function borderChanges(phases, k, degrees, fine = false) {
   return changesOf({ path, sum: other }, Math.max(1, Math.min(sum - 1, Math.round((near - start) * 1e6) / 1e6)));
 }
 
-// `showFields` makes the rows of the fields of a phase, or brings them up to date.
-function phasesOf({ change, slide, showFields, isRefused, word, decimal }) {
-  const bar = make("div", { class: "phase-bar" });
-  const editor = make("div", { class: "phase-editor" });
-  const error = make("p", { class: "error", id: "phases-error", role: "alert", hidden: true });
-  const element = make("div", { class: "size phases", role: "group", "aria-label": word("phases") }, bar, editor, error);
-  const row = { element, error, input: null };
-  let field = null, phases = [], chosen = null, built = "";
+// A part of the form, which changes the task, knows what is moved and refused, and renders fields and errors.
+function phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused }) {
+  const { at, word, decimal } = page;
+  const key = "phases";
+  let given = [], phases = [], chosen = null;
 
-  const total = () => phases.reduce((sum, phase) => sum + phase.angle, 0) || 360;
   const start = (k) => phases.slice(0, k).reduce((sum, phase) => sum + phase.angle, 0);
-
+  const total = () => start(phases.length) || 360;
   // The phases to which something is done: what was refused is none of them.
-  const standing = () => (isRefused() ? field.phases : phases);
+  const standing = () => (isRefused() ? given : phases);
+  const said = (degrees) => `${shortNumber(degrees, decimal())}°`;
 
   // --- the bar ------------------------------------------------------------------------------------------------------------
 
-  function segmentOf(phase, k) {
-    return make("button", {
-      type: "button", class: phase.kind === "dwell" ? "dwell" : "moves", "data-key": `phase/${k}`, "aria-pressed": String(k === chosen),
-      onclick: () => { chosen = chosen === k ? null : k; show(field); },
-    }, make("b"), make("span", { text: phase.name }));
+  function segmentOf({ kind, angle, symbol, name }, k, wide) {
+    const tight = `${isTight(name, wide) ? " narrow" : ""}${isTight(`${angle}°`, wide) ? " tiny" : ""}`;
+    const choose = () => {
+      chosen = chosen === k ? null : k;
+      draw();
+    };
+    return html`<button type="button" class="${kind === "dwell" ? kind : "moves"}${tight}" data-key="phase/${k}"
+      aria-pressed=${k === chosen} aria-label="${symbol} ${name} ${said(angle)}" style="flex-grow: ${angle}"
+      @click=${choose}><b>${said(angle)}</b><span>${letters(name)}</span></button>`;
   }
 
-  function borderOf(k) {
-    const input = make("input", {
-      type: "range", class: "unseen", step: "any", "data-key": `border/${k}`,
-      "aria-label": `${word("border")} ${phases[k].symbol} ${phases[k + 1].symbol}`,
-    });
-    input.addEventListener("keydown", (event) => {
-      const axis = { value: start(k + 1), min: start(k) + 1, max: start(k + 2) - 1, step: 1, fine: 0.1, coarse: 5 };
-      const value = valueByKey(axis, event.key, event.shiftKey);
-      if (value === undefined) return;
+  function borderOf(k, isWrong) {
+    const value = start(k + 1), min = start(k) + 1, max = start(k + 2) - 1;
+    const pressed = (event) => {
+      const next = valueByKey({ value, min, max, step: 1, fine: 0.1, coarse: 5 }, event.key, event.shiftKey);
+      if (next === undefined) return;
       event.preventDefault();
-      change(borderChanges(standing(), k, value, event.shiftKey), true);
-    });
-    input.addEventListener("input", () => change(borderChanges(standing(), k, Number(input.value)), true));
-    const border = make("div", { class: "border", "data-border": k }, input);
-    border.addEventListener("pointerdown", (event) => drag(event, border, k));
-    return border;
+      change(borderChanges(standing(), k, next, event.shiftKey), true);
+    };
+    const moved = ({ target }) => change(borderChanges(standing(), k, Number(target.value)), true);
+    return html`<div class="border" data-border=${k} style="left: ${100 * value / total()}%"
+      @pointerdown=${(event) => drag(event, k)}><input type="range" class="unseen" step="any" data-key="border/${k}"
+        aria-label="${word("border")} ${phases[k].symbol} ${phases[k + 1].symbol}" aria-valuetext=${said(value)}
+        aria-invalid=${isWrong || nothing} min=${min} max=${max} .value=${live(String(value))}
+        @keydown=${pressed} @input=${moved}></div>`;
   }
 
-  function drag(event, border, k) {
+  function drag(event, k) {
     if (event.button) return;
     event.preventDefault();
-    const box = bar.getBoundingClientRect(), turn = total(), before = standing();
+    const border = event.currentTarget, box = border.parentElement.getBoundingClientRect();
+    const turn = total(), before = standing();
     border.setPointerCapture(event.pointerId);
-    border.firstChild.focus({ preventScroll: true });
-    const move = (now) => slide(borderChanges(before, k, (now.clientX - box.left) / box.width * turn, now.shiftKey));
+    border.firstElementChild.focus({ preventScroll: true });
+    const move = ({ clientX, shiftKey }) =>
+      page.slide(borderChanges(before, k, (clientX - box.left) / box.width * turn, shiftKey));
     border.addEventListener("pointermove", move);
     border.addEventListener("lostpointercapture", () => border.removeEventListener("pointermove", move), { once: true });
   }
 
-  function place() {
-    const turn = total();
-    bar.querySelectorAll("button").forEach((segment, k) => {
-      const { angle, symbol, name } = phases[k], said = `${shortNumber(angle, decimal())}°`, wide = angle / turn * (bar.clientWidth || 240);
-      segment.style.flexGrow = angle;
-      segment.classList.toggle("narrow", isTight(name, wide));
-      segment.classList.toggle("tiny", isTight(`${angle}°`, wide));
-      segment.firstChild.textContent = said;
-      segment.setAttribute("aria-label", `${symbol} ${name} ${said}`);
-    });
-    bar.querySelectorAll(".border").forEach((border, k) => {
-      border.style.left = `${100 * start(k + 1) / turn}%`;
-      Object.assign(border.firstChild, { min: start(k) + 1, max: start(k + 2) - 1, value: start(k + 1) });
-      border.firstChild.setAttribute("aria-valuetext", `${shortNumber(start(k + 1), decimal())}°`);
-    });
-  }
-
   // --- the phase that is chosen ---------------------------------------------------------------------------------------------
 
-  function headAndEdits({ symbol, name, edits }) {
-    const edit = (what) => edits[what] && make("button", {
-      type: "button", "data-key": `edit-${what}`, text: word(`phase_${what}`), onclick: () => change({ "motion.phases": field.phases[chosen].edits[what] }),
-    });
-    return [make("p", { class: "label", text: `${symbol} ${name}` }), make("div", { class: "rows" }, edit("dwell"), edit("step"), edit("remove"))];
+  function editorOf({ symbol, name, fields, edits }) {
+    const edit = (what) => html`<button type="button" data-key="edit-${what}"
+      @click=${() => change({ "motion.phases": edits[what] })}>${word(`phase_${what}`)}</button>`;
+    return html`<p class="label">${letters(`${symbol} ${name}`)}</p>${repeat(fields, (field) => field.key, rowOf)}
+      <div class="rows">${["dwell", "step", "remove"].filter((what) => edits[what]).map(edit)}</div>`;
   }
 
-  function show(now) {
-    field = now;
-    phases = now.phases;
+  function barOf(field, wrong) {
+    given = field.phases;
+    const angleOf = ({ angle }, k) => valueOf({ path: `motion.phases[${k}].angle`, value: angle });
+    phases = given.map((phase, k) => ({ ...phase, angle: angleOf(phase, k) }));
     if (chosen !== null) chosen = Math.min(chosen, phases.length - 1);
-    const own = phases[chosen], shape = JSON.stringify([chosen, phases.map(({ name, symbol }) => [name, symbol]), Object.keys(own?.edits || {}).filter((what) => own.edits[what])]);
-    const same = shape === built;
-    built = shape;
-    keepingFocus(element, () => {
-      if (!same) {
-        bar.replaceChildren(...phases.map(segmentOf), ...phases.slice(1).map((_, k) => borderOf(k)));
-        editor.classList.toggle("hint", !own);
-        editor.replaceChildren(...(own ? headAndEdits(own) : [word("choose_a_phase")]));
-      }
-      showFields(own?.fields || [], editor);
-    });
-    place();
+    const own = phases[chosen], isWrong = wrong?.key === key;
+    const wide = (at("form").clientWidth || 242) - 2;
+    return html`<div class="size phases${isWrong ? " wrong" : ""}" role="group" aria-label=${word("phases")}>
+      <div class="phase-bar">${phases.map((phase, k) => segmentOf(phase, k, phase.angle / total() * wide))}${
+        phases.slice(1).map((_, k) => borderOf(k, isWrong && wrong.border === k))}</div>
+      <div class="phase-editor${own ? "" : " hint"}">${own ? editorOf(own) : word("choose_a_phase")}</div>
+      ${errorOf(isWrong, "phases-error")}</div>`;
   }
 
-  function follow(changes) {
-    if (!field) return;
-    phases = field.phases.map((phase, k) => ({ ...phase, angle: changes[`motion.phases[${k}].angle`] ?? phase.angle }));
-    place();
-  }
-
-  return { element, row, show, follow, borderAt: (path) => bar.querySelector(`[data-key="border/${keysOf(path ?? "")[2]}"]`) };
+  return { key, barOf, fieldsOf: (field) => field?.phases[chosen]?.fields || [] };
 }

@@ -54,13 +54,10 @@ function pictureOf(page) {
   }
 
   function chooseBeside() {
-    const views = page.viewNames().filter(({ name }) => name !== page.view() && !now().hidden.includes(name)), list = at("beside");
-    const options = [["", word("beside_usual")], ["diagrams", word("beside_diagrams")], ...views.map(({ name, title }) => [name, title])];
-    if (list.dataset.options !== JSON.stringify(options)) {
-      list.dataset.options = JSON.stringify(options);
-      list.replaceChildren(...options.map(([value, text]) => make("option", { value, text })));
-    }
-    list.value = now().beside ?? "";
+    const views = page.viewNames().filter(({ name }) => name !== page.view() && !now().hidden.includes(name));
+    const more = [["", word("beside_usual")], ["diagrams", word("beside_diagrams")]];
+    const all = [...more, ...views.map(({ name, title }) => [name, title])];
+    render(options(all, (value) => value === (now().beside ?? "")), at("beside"));
   }
 
   function showPane(pane, k) {
@@ -98,7 +95,7 @@ function pictureOf(page) {
     const own = page.drawn(), k = page.currentStep(), still = page.turns() || k < 0;
     if (still) {
       for (const id of ["slider", "previous", "next"]) at(id).disabled = true;
-      at("pips").replaceChildren();
+      showPips(0);
       at("counter").textContent = "";
       if (page.turns()) page.showLive();
       return;
@@ -115,14 +112,10 @@ function pictureOf(page) {
     at("next").disabled = k === last && (part === null || part === parts[k] - 1);
   }
 
-  function showPips(count, k) {
-    if (at("pips").childElementCount !== count) {
-      at("pips").replaceChildren(...Array.from({ length: count }, (_, j) => make("span", { "data-step": j })));
-    }
-    [...at("pips").children].forEach((pip, j) => {
-      pip.classList.toggle("done", j < k);
-      pip.classList.toggle("here", j === k);
-    });
+  function showPips(count, here) {
+    const kindOf = (k) => (k === here ? "here" : k < here ? "done" : nothing);
+    const pipOf = (_, k) => html`<span data-step=${k} class=${kindOf(k)}></span>`;
+    render(Array.from({ length: count }, pipOf), at("pips"));
   }
 
   // --- the line under the drawing ----------------------------------------------------------------------------------------
@@ -131,7 +124,8 @@ function pictureOf(page) {
     const line = at("told-limits"), found = now().hidden.includes("warnings") ? [] : last.warnings || [], first = found.find((each) => each.limit) || found[0];
     line.className = page.failed || first?.limit ? "over" : first ? "noted" : "kept";
     const more = found.length > 1 ? ` +${found.length - 1}` : "";
-    lettered(line, page.failed || (first ? first.text + more : word(now().hidden.includes("warnings") ? "locked" : "limits_kept")));
+    const kept = word(now().hidden.includes("warnings") ? "locked" : "limits_kept");
+    render(letters(page.failed || (first ? first.text + more : kept)), line);
     line.title = page.failed || found.map((each) => each.text).join("\n");
     document.body.classList.toggle("stale", Boolean(page.failed));
     showPin();
@@ -144,7 +138,7 @@ function pictureOf(page) {
     at("pin").setAttribute("aria-pressed", Boolean(pin));
     for (const name of ["title", "aria-label"]) at("pin").setAttribute(name, word(pin ? "unpin" : "pin"));
     at("told-pin").hidden = !pin;
-    if (pin) lettered(at("told-pin"), word("pinned_cam").replace("{sizes}", sizesSaid(pin)));
+    if (pin) render(letters(word("pinned_cam").replace("{sizes}", sizesSaid(pin))), at("told-pin"));
   }
 
   // What of a task differs from the present one, in few words.
@@ -194,9 +188,9 @@ function pictureOf(page) {
 
   // --- notices ---------------------------------------------------------------------------------------------------------------
 
-  function notice(text, ...more) {
+  function notice(text, more = nothing) {
     at("notice").hidden = !text;
-    if (text) at("notice").replaceChildren(make("p", { text }), ...more);
+    render(text ? html`<p>${letters(text)}</p>${more}` : nothing, at("notice"));
   }
 
   const announce = (text) => (at("announcement").textContent = text);

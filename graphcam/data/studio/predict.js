@@ -5,10 +5,9 @@
 const STEP_BY_STEP = 550;
 
 studioModes.predict = (() => {
-  let studio = null, asked = null, guess = null, round = 0, seed = 0, timer = 0, going = null, kind = null, task = null;
-  let watching = false;
+  let asked = null, guess = null, round = 0, seed = 0, timer = 0, going = null, kind = null, task = null;
+  let judged = null;
 
-  const word = (name) => studio.words[name] ?? name;
   const letter = { centre: "A?", angle: "α?", steepest: "φ?", sharpest: "ρ?" };
 
   // --- the question -------------------------------------------------------------------------------------------------------
@@ -24,14 +23,15 @@ studioModes.predict = (() => {
       kind = null;
       return begin(more);
     }
-    if (!answer.ok) return studio.panel.card(make("p", { text: word("nothing_to_predict") }));
+    if (!answer.ok) return studio.panel.card(html`<p>${wordOf("nothing_to_predict")}</p>`);
     asked = answer;
     kind = answer.kind;
     task = answer.task;
     if (more.seed) await studio.load(answer.task, answer.name);
     if (asking !== round) return;
     hideAnswers();
-    guess = guessOf(studio, asked, letter[kind], told);
+    judged = null;
+    guess = guessOf(studio, asked, letter[kind], () => guess && showCard({ stays: true }));
     showCard();
     studio.announce(asked.question);
   }
@@ -47,55 +47,46 @@ studioModes.predict = (() => {
 
   // --- the card ----------------------------------------------------------------------------------------------------------
 
-  function kindsOf() {
-    const options = asked.kinds.map((each) => make("option", { value: each.kind, selected: each.kind === kind, text: each.title }));
-    return make("label", { class: "kinds" }, make("span", { text: word("predict_what") }), make("select", {
-      id: "predict-kind", onchange: ({ target }) => {
-        kind = target.value;
-        begin();
-      },
-    }, options));
+  function fieldOf({ name, min, max }, k) {
+    const values = guess.values();
+    const typed = ({ target: { value } }) => value && guess.set(values.with(k, Number(value)));
+    return html`<label class="guess-field"><span>${name}</span>
+      <input type="number" step="0.5" min=${Math.ceil(min)} max=${Math.floor(max)} data-field=${k}
+        .value=${live(values[k].toFixed(1))} @change=${typed}><span class="unit">mm</span></label>`;
   }
 
-  function fieldsOf() {
-    return guess.axes.map((axis, k) => make("label", { class: "guess-field" }, make("span", { text: axis.name }),
-      make("input", { type: "number", step: 0.5, min: Math.ceil(axis.min), max: Math.floor(axis.max), "data-field": k, value: guess.values()[k].toFixed(1), onchange: ({ target }) => {
-        const typed = Number(target.value);
-        if (target.value !== "" && Number.isFinite(typed)) guess.set(guess.values().map((value, j) => (j === k ? typed : value)));
-      } }), make("span", { class: "unit", text: "mm" })));
+  function askedOf() {
+    const chosen = ({ target }) => {
+      kind = target.value;
+      begin();
+    };
+    const kinds = options(asked.kinds.map((each) => [each.kind, each.title]), (each) => each === kind);
+    return html`<label class="kinds"><span>${wordOf("predict_what")}</span>
+        <select id="predict-kind" @change=${chosen}>${kinds}</select></label>
+      <p class="question">${letters(asked.question)}</p>
+      <p class="hint">${wordOf("predict_how")}</p>
+      ${guess.axes.map(fieldOf)}
+      <div class="rows">${modeButton("construct", "construct", construct, true)}${
+        modeButton("next-variant", "next_variant", nextVariant)}</div>`;
   }
 
-  // The fields follow the hand.
-  function told(values) {
-    document.querySelectorAll("#card [data-field]").forEach((field, k) => {
-      if (field !== document.activeElement) field.value = values[k].toFixed(1);
-    });
-  }
+  const goingOf = ({ title }) => html`<p class="question">${letters(asked.question)}</p>
+    <p id="going" role="status">${letters(wordOf("constructing").replace("{step}", title))}</p>
+    ${modeButton("construct-next", "construct_next", next)}`;
 
-  function showCard() {
-    studio.panel.card(make("section", { class: "mode-card", "aria-label": word("predict") },
-      kindsOf(),
-      make("p", { class: "question", text: asked.question }),
-      make("p", { class: "hint", text: word("predict_how") }),
-      fieldsOf(),
-      make("div", { class: "rows" },
-        make("button", { type: "button", class: "main", id: "construct", text: word("construct"), onclick: construct }),
-        make("button", { type: "button", id: "next-variant", text: word("next_variant"), onclick: nextVariant }))));
-  }
+  const rowOf = (name, text) => html`<div><dt>${letters(name)}</dt><dd>${text}</dd></div>`;
+  const judgedOf = ({ said, why, paper_said, machine_said, quantity }) => html`
+    <p class="question">${letters(asked.question)}</p>
+    <p class="said" id="judged" tabindex="-1"><strong>${letters(said)}</strong></p>
+    <dl class="differences">${rowOf(wordOf("on_paper"), paper_said)}${
+      machine_said ? rowOf(`${wordOf("of_the_machine")}: ${quantity}`, machine_said) : nothing}</dl>
+    <p>${letters(why)}</p>
+    <div class="rows">${modeButton("next-variant", "next_variant", nextVariant, true)}${
+      modeButton("try-again", "try_again", () => begin())}</div>`;
 
-  function showJudged({ said, why, paper_said, machine_said, quantity }) {
-    studio.panel.card(make("section", { class: "mode-card", "aria-label": word("predict") },
-      make("p", { class: "question", text: asked.question }),
-      make("p", { class: "said", id: "judged", tabindex: "-1" }, make("strong", { text: said })),
-      make("dl", { class: "differences" },
-        make("div", {}, make("dt", { text: word("on_paper") }), make("dd", { text: paper_said })),
-        machine_said && make("div", {}, make("dt", { text: `${word("of_the_machine")}: ${quantity}` }), make("dd", { text: machine_said }))),
-      make("p", { text: why }),
-      make("div", { class: "rows" },
-        make("button", { type: "button", class: "main", id: "next-variant", text: word("next_variant"), onclick: nextVariant }),
-        make("button", { type: "button", id: "try-again", text: word("try_again"), onclick: () => begin() }))));
-    document.getElementById("judged").focus({ preventScroll: true });
-    studio.announce(`${said} ${why}`);
+  function showCard(more) {
+    const inside = going ? goingOf(going) : judged ? judgedOf(judged) : askedOf();
+    studio.panel.card(modeCard("predict", inside), more);
   }
 
   // --- the construction --------------------------------------------------------------------------------------------------
@@ -105,17 +96,10 @@ studioModes.predict = (() => {
     guess.hold(true);
     const answer = await studio.ask({ ask: "predict", language: studio.config.language, task, kind, guess: [x, y] });
     if (asking !== round || !answer.ok) return guess?.hold(false);
-    going = { steps: [...answer.construct], judged: answer.judged };
-    showGoing();
+    going = { steps: [...answer.construct], judged: answer.judged, title: "" };
     next();
-  }
-
-  function showGoing() {
-    studio.panel.card(make("section", { class: "mode-card", "aria-label": word("predict") },
-      make("p", { class: "question", text: asked.question }),
-      make("p", { id: "going", role: "status" }),
-      make("button", { type: "button", id: "construct-next", text: word("construct_next"), onclick: next })));
-    document.getElementById("construct-next").focus({ preventScroll: true });
+    showCard();
+    focusOn("construct-next");
   }
 
   function next() {
@@ -126,16 +110,19 @@ studioModes.predict = (() => {
     const { only, hidden } = studio.state.get();
     studio.state.set({ view: one.view, step: null, part: null, only: [...only, one.step], hidden: hidden.filter((name) => name !== one.view) });
     guess.show();
-    lettered(document.getElementById("going"), word("constructing").replace("{step}", one.title));
+    going.title = one.title;
+    showCard({ stays: true });
     timer = setTimeout(next, STEP_BY_STEP);
   }
 
   function finish() {
-    const { judged } = going, at = Object.keys(judged.at), here = studio.state.get().view;
+    ({ judged } = going);
     going = null;
-    if (!at.includes(here)) studio.state.set({ view: asked.view, step: null, part: null });
+    if (!(studio.state.get().view in judged.at)) studio.state.set({ view: asked.view, step: null, part: null });
     guess.settle(judged.at);
-    showJudged(judged);
+    showCard();
+    focusOn("judged");
+    studio.announce(`${judged.said} ${judged.why}`);
   }
 
   function nextVariant() {
@@ -158,17 +145,11 @@ studioModes.predict = (() => {
 
   function changed(names) {
     if (!guess) return;
-    if (names.includes("task") && studio.state.get().mode === "predict" && JSON.stringify(studio.state.get().task) !== JSON.stringify(task)) begin();
+    if (names.includes("task") && !alike(studio.state.get().task, task)) begin();
     else guess.show();
   }
 
-  function enter(page) {
-    studio = page;
-    if (!watching) {
-      studio.state.subscribe((names) => changed(names));
-      studio.stage.onMove(() => guess?.show());
-      watching = true;
-    }
+  function enter() {
     document.body.classList.add("guessing");
     document.addEventListener("keydown", pressed, true);
     begin();
@@ -184,5 +165,5 @@ studioModes.predict = (() => {
     studio.state.set({ only: null, inert: false, hidden: [], step: null, part: null });
   }
 
-  return { enter, leave };
+  return { enter, leave, changed };
 })();

@@ -1,10 +1,13 @@
 // The form of sizes: a slider and a number field for each, choices, and what is left open to be found.
 "use strict";
 
-function sizesOf(at, acts) {
-  const { change, slide, leave, refused, word, decimal } = acts;
-  const rows = new Map(), phases = phasesOf({ ...acts, showFields, isRefused: () => errorAt !== null });
-  let shape = "", shown = "", errorAt = null, ofPhase = "", edited = null;
+function sizesOf(page) {
+  const { at, word, decimal } = page;
+  // What the engine said last; what is moved since, by paths; what stands in a field and is no value yet, by keys; what
+  // is refused; the field that was changed last: of a lift there may be two, that of all phases and of the chosen one.
+  let fields = [], moved = {}, drafts = {}, wrong = null, edited = null;
+  const isRefused = () => wrong !== null;
+  const phases = phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused });
 
   // What is seldom moved is closed at first.
   const SELDOM = /^(drawing|pencil|spring|material)/;
@@ -12,232 +15,181 @@ function sizesOf(at, acts) {
   const FIRST = /^(follower\.(offset|arm)|arcs)/;
   const keyOf = ({ key, path }) => key ?? path;
   const idOf = (field) => `size-${keyOf(field).replace(/\W+/g, "-")}`;
+  const sizes = () => fields.filter(({ kind }) => kind !== "phases");
+  const bar = () => fields.find(({ kind }) => kind === "phases");
+  const wrongAt = (field) => wrong?.key === keyOf(field);
+
+  // While a size is moved its numbers follow at once.
+  function valueOf({ path, value }) {
+    return path in moved ? moved[path] : value;
+  }
+  const textOf = (field) => shortNumber(valueOf(field), decimal());
 
   // --- one field -------------------------------------------------------------------------------------------------------
 
-  function numberInput(field, row) {
-    const input = make("input", {
-      type: "text", inputmode: "decimal", id: idOf(field), "data-key": keyOf(field), autocomplete: "off",
-      "aria-describedby": `${idOf(field)}-error`,
-    });
-    const commit = () => {
-      if (input.value === input.shown) return;
-      const value = typedNumber(input.value);
-      if (Number.isNaN(value)) return refuseText(row);
-      input.shown = input.value;
-      edited = row;
-      change(changesOf(row.field, value));
-    };
-    input.addEventListener("change", commit);
-    input.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") commit();
-      if (event.key === "Escape" && input.value !== input.shown) {
-        event.stopPropagation();
-        input.value = input.shown;
-        leave();
-      }
-      const by = { ArrowUp: 1, ArrowDown: -1 }[event.key], value = typedNumber(input.value);
-      if (!by || Number.isNaN(value)) return;
-      event.preventDefault();
-      const axis = { ...row.field, value };
-      change(changesOf(row.field, valueByKey(axis, event.key, event.shiftKey)), true);
-    });
-    return input;
+  function change(changes, byKey = false) {
+    page.change(changes, byKey);
+    draw();
   }
 
-  function rangeInput(field, row) {
-    const input = make("input", { type: "range", "data-key": `${keyOf(field)}/range`, "aria-label": field.name });
-    input.addEventListener("input", () => slide(changesOf((edited = row).field, Number(input.value))));
-    return input;
+  function commit(field, { value }) {
+    const number = typedNumber(value), isOld = value === textOf(field);
+    if (!isOld && Number.isNaN(number)) return refuseText(field);
+    delete drafts[keyOf(field)];
+    edited = keyOf(field);
+    if (isOld) draw();
+    else change(changesOf(field, number));
   }
 
-  function openSwitch(field, row) {
-    const pick = (given) => change(given ? changesOf(row.field, row.field.adopted ?? row.field.min)
-      : { [row.field.open || row.field.path]: null });
-    const button = (given) => make("button", {
-      type: "button", role: "radio", "data-key": `${field.path}/${given}`, "data-given": String(given),
-      text: word(given ? "given" : field.adopted === null ? "none" : "found"), onclick: () => pick(given),
-    });
-    const group = make("div", { class: "choice", role: "radiogroup", "aria-label": field.name }, button(false), button(true));
-    group.addEventListener("keydown", (event) => {
+  function pressed(field, event) {
+    const { key, target, shiftKey } = event, value = typedNumber(target.value);
+    if (key === "Enter") commit(field, target);
+    if (key === "Escape" && target.value !== textOf(field)) {
+      event.stopPropagation();
+      delete drafts[keyOf(field)];
+      draw();
+      page.leave();
+    }
+    if (!/^Arrow(Up|Down)$/.test(key) || Number.isNaN(value)) return;
+    event.preventDefault();
+    delete drafts[keyOf(field)];
+    change(changesOf(field, valueByKey({ ...field, value }, key, shiftKey)), true);
+  }
+
+  function typed(field, text) {
+    drafts[keyOf(field)] = text;
+    draw();
+  }
+
+  function slid(field, { value }) {
+    edited = keyOf(field);
+    page.slide(changesOf(field, Number(value)));
+  }
+
+  function openSwitch(field, isOpen) {
+    const pick = (given) =>
+      change(given ? changesOf(field, field.adopted ?? field.min) : { [field.open || field.path]: null });
+    const button = (given, name) => html`<button type="button" role="radio" data-key="${field.path}/${given}"
+      data-given=${given} aria-checked=${given !== isOpen} tabindex=${given === isOpen ? -1 : 0}
+      @click=${() => pick(given)}>${word(name)}</button>`;
+    const turned = (event) => {
       if (!/^Arrow/.test(event.key)) return;
       event.preventDefault();
       event.stopPropagation();
-      const other = group.querySelector("[aria-checked=false]");
+      const other = event.currentTarget.querySelector("[aria-checked=false]");
       other.focus();
       other.click();
-    });
-    return group;
+    };
+    const adopted = `${shortNumber(field.adopted && Math.round(field.adopted * 1000) / 1000, decimal())} ${field.unit}`;
+    return html`<div class="choice" role="radiogroup" aria-label=${field.name} @keydown=${turned}>${
+      button(false, field.adopted === null ? "none" : "found")}${button(true, "given")}</div>
+      <p class="found" ?hidden=${!isOpen || field.adopted === null}>${letters(`${word("found")}: ${adopted}`)}</p>`;
   }
 
-  function choiceInput(field, row) {
-    const select = make("select", { id: idOf(field), "data-key": keyOf(field) }, field.choices.map((choice) =>
-      make("option", { value: choice.value, text: choice.name })));
-    select.addEventListener("change", () => {
-      const chosen = row.field.choices[select.selectedIndex];
-      change(chosen.changes || { [field.path]: chosen.value });
-    });
-    return select;
+  function numberOf(field) {
+    const key = keyOf(field), id = idOf(field), { kind, name, unit, min, max, step } = field, value = valueOf(field);
+    const isOpen = kind === "open-number" && value === null, there = value ?? field.adopted, isWrong = wrongAt(field);
+    return html`<div class="size${isOpen ? " open" : ""}${isWrong ? " wrong" : ""}">
+      <div class="row"><label for=${id}>${letters(name)}</label>
+        <input type="text" inputmode="decimal" id=${id} data-key=${key} autocomplete="off" ?hidden=${isOpen}
+          aria-describedby="${id}-error" aria-invalid=${isWrong || nothing} .value=${live(drafts[key] ?? textOf(field))}
+          @input=${({ target }) => typed(field, target.value)} @change=${({ target }) => commit(field, target)}
+          @keydown=${(event) => pressed(field, event)}>
+        <span class="unit" ?hidden=${isOpen}>${letters(unit)}</span></div>
+      ${kind === "open-number" ? openSwitch(field, isOpen) : nothing}
+      <input type="range" data-key="${key}/range" aria-label=${name} ?hidden=${isOpen}
+        aria-valuetext=${`${shortNumber(there, decimal())} ${unit}`.trim()} min=${min} max=${max} step=${step}
+        .value=${live(String(there ?? min))} @input=${({ target }) => slid(field, target)}>
+      ${errorOf(isWrong, `${id}-error`)}</div>`;
+  }
+
+  function choiceOf(field) {
+    const key = keyOf(field), id = idOf(field), isWrong = wrongAt(field), { path, name, choices, value } = field;
+    const isChosen = (each, k) => (key in drafts ? drafts[key] === k : each === value);
+    const chosen = ({ target: { selectedIndex: k } }) => {
+      drafts[key] = k;
+      change(choices[k].changes || { [path]: choices[k].value });
+    };
+    return html`<div class="size choosing${isWrong ? " wrong" : ""}"><label for=${id}>${letters(name)}</label>
+      <select id=${id} data-key=${key} aria-invalid=${isWrong || nothing} @change=${chosen}>${
+        options(choices.map((each) => [each.value, each.name]), isChosen)}</select>
+      ${errorOf(isWrong, `${id}-error`)}</div>`;
+  }
+
+  function errorOf(isWrong, id) {
+    const message = isWrong ? letters(wrong.message) : nothing;
+    return html`<p class="error" id=${id} role="alert" ?hidden=${!isWrong}>${message}</p>`;
   }
 
   function rowOf(field) {
-    const row = { field };
-    const error = make("p", { class: "error", id: `${idOf(field)}-error`, role: "alert", hidden: true });
-    const label = make("label", { for: idOf(field), text: field.name });
-    if (field.kind === "choice") {
-      row.input = choiceInput(field, row);
-      row.element = make("div", { class: "size choosing" }, label, row.input, error);
-    } else {
-      row.input = numberInput(field, row);
-      row.range = rangeInput(field, row);
-      row.open = field.kind === "open-number" ? openSwitch(field, row) : null;
-      row.found = row.open ? make("p", { class: "found" }) : null;
-      row.line = make("div", { class: "row" }, label, row.input, make("span", { class: "unit", text: field.unit }));
-      row.element = make("div", { class: "size" }, row.line, row.open, row.found, row.range, error);
-    }
-    row.error = error;
-    return row;
-  }
-
-  // --- values ------------------------------------------------------------------------------------------------------------
-
-  function setNumber(row, field) {
-    const open = field.value === null, value = field.value ?? field.adopted;
-    const shown = shortNumber(field.value, decimal());
-    if (document.activeElement !== row.input || row.input.value === row.input.shown || row.input.shown === undefined) row.input.value = shown;
-    row.input.shown = shown;
-    Object.assign(row.range, { min: field.min, max: field.max, step: field.step });
-    row.range.value = value ?? field.min;
-    row.range.setAttribute("aria-valuetext", `${shortNumber(value, decimal())} ${field.unit}`.trim());
-    if (!row.open) return;
-    row.element.classList.toggle("open", open);
-    row.input.hidden = row.range.hidden = open;
-    row.line.querySelector(".unit").hidden = open;
-    for (const button of row.open.children) {
-      const chosen = (button.dataset.given === "true") !== open;
-      button.setAttribute("aria-checked", chosen);
-      button.tabIndex = chosen ? 0 : -1;
-    }
-    row.found.hidden = !open || field.adopted === null;
-    lettered(row.found, `${word("found")}: ${shortNumber(field.adopted === null ? null : Math.round(field.adopted * 1000) / 1000, decimal())} ${field.unit}`);
-  }
-
-  function setRow(row, field) {
-    row.field = field;
-    if (field.kind === "choice") row.input.selectedIndex = field.choices.findIndex((choice) => choice.value === field.value);
-    else setNumber(row, field);
+    return field.kind === "choice" ? choiceOf(field) : numberOf(field);
   }
 
   // --- the whole form ------------------------------------------------------------------------------------------------------
 
-  const shapeOf = (fields) => JSON.stringify(fields.map((field) =>
-    [field.path, field.kind, field.name, field.unit, field.adopted === null, field.choices?.map((choice) => choice.name)]));
-
-  function addRow(field) {
-    rows.set(keyOf(field), rowOf(field));
-    return rows.get(keyOf(field)).element;
+  function sectionOf(group) {
+    const own = fields.filter((field) => field.group === group);
+    const inside = repeat(own, keyOf, (field) => (field.kind === "phases" ? phases.barOf(field, wrong) : rowOf(field)));
+    const isSeldom = own.every(({ path }) => SELDOM.test(path));
+    return isSeldom ? html`<details><summary>${letters(group)}</summary>${inside}</details>`
+      : html`<section><h2>${letters(group)}</h2>${inside}</section>`;
   }
 
-  // The fields of the chosen phase, before the buttons that change the phases.
-  function showFields(fields, editor) {
-    const paths = shapeOf(fields);
-    if (paths !== ofPhase || fields.some(({ key }) => !editor.contains(rows.get(key)?.element))) {
-      for (const [key, { field }] of rows) if (field.key) rows.delete(key);
-      for (const old of editor.querySelectorAll(".size")) old.remove();
-      editor.lastElementChild?.before(...fields.map(addRow));
-    }
-    ofPhase = paths;
-    for (const field of fields) setRow(rows.get(field.key), field);
+  function draw() {
+    const groups = [...new Set(fields.map(({ group }) => group))];
+    const first = new Set(fields.filter(({ path }) => FIRST.test(path)).map(({ group }) => group));
+    render(repeat([...first, ...groups.filter((group) => !first.has(group))], (group) => group, sectionOf), at("form"));
   }
 
-  function rebuild(fields) {
-    rows.clear();
-    const isFirst = (group) => fields.some((field) => field.group === group && FIRST.test(field.path));
-    const every = [...new Set(fields.map((field) => field.group))], groups = [...every.filter(isFirst), ...every.filter((group) => !isFirst(group))];
-    const sections = groups.map((group) => {
-      const inside = fields.filter((field) => field.group === group).map((field) => {
-        return field.kind === "phases" ? phases.element : addRow(field);
-      });
-      return fields.every((field) => field.group !== group || SELDOM.test(field.path)) ? make("details", {}, make("summary", { text: group }), inside)
-        : make("section", {}, make("h2", { text: group }), inside);
-    });
-    keepingFocus(at("form"), () => at("form").replaceChildren(...sections));
+  // All fields say again what is drawn; of what is being typed the text stays.
+  function restore(typing = {}) {
+    [wrong, moved, drafts] = [null, {}, typing];
+    draw();
   }
 
-  function show(fields) {
-    const news = JSON.stringify(fields);
+  function show(found) {
     // Of the same sizes again: what was refused stays in its field.
-    if (news === shown && errorAt) return;
-    shown = news;
-    if (errorAt) forgive(errorAt);
-    if (shapeOf(fields) !== shape) rebuild(fields);
-    shape = shapeOf(fields);
-    for (const field of fields) {
-      if (field.kind === "phases") phases.show(field);
-      else setRow(rows.get(keyOf(field)), field);
-    }
+    if (wrong && alike(found, fields)) return;
+    const { type, dataset: { key } } = document.activeElement;
+    fields = found;
+    restore(type === "text" && key in drafts && key !== wrong?.key ? { [key]: drafts[key] } : {});
   }
 
-  // All fields say again what is drawn.
-  function restore() {
-    if (errorAt) forgive(errorAt);
-    phases.follow({});
-    for (const row of rows.values()) {
-      row.input.shown = row.input.value;
-      setRow(row, row.field);
-    }
-  }
-
-  // While a size is moved its numbers follow at once.
   function follow(changes) {
-    for (const row of rows.values()) {
-      const { path, kind } = row.field;
-      if (path in changes && kind !== "choice") setNumber(row, { ...row.field, value: changes[path] });
-    }
-    phases.follow(changes);
+    Object.assign(moved, changes);
+    draw();
   }
 
   // --- errors -----------------------------------------------------------------------------------------------------------------
 
-  function refuse(row, message) {
-    if (errorAt && errorAt !== row) forgive(errorAt);
-    errorAt = row;
-    lettered(row.error, message);
-    row.error.hidden = false;
-    row.element.classList.add("wrong");
-    row.input?.setAttribute("aria-invalid", "true");
-    const folded = row.element.closest("details");
+  function refuse(found) {
+    wrong = found;
+    draw();
+    const said = at("form").querySelector(".error:not([hidden])"), folded = said.closest("details");
     if (folded) folded.open = true;
     // On a phone it may lie below the edge of the panel.
-    row.error.scrollIntoView({ block: "nearest" });
+    said.scrollIntoView({ block: "nearest" });
   }
 
-  function refuseText(row) {
-    refuse(row, word("no_number"));
-    refused();
+  function refuseText(field) {
+    refuse({ key: keyOf(field), message: word("no_number") });
+    page.showStatus();
   }
 
-  function forgive(row) {
-    errorAt = null;
-    row.error.hidden = true;
-    row.element.classList.remove("wrong");
-    for (const input of row.element.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
-  }
-
-  // Of a lift there may be two: that of all phases, and that of the chosen one.
-  function rowOn(path) {
-    const found = [...rows.values()].filter(({ field }) => field.path === path);
-    return found.includes(edited) ? edited : found[0];
+  function keyAt(path) {
+    const found = [...sizes(), ...phases.fieldsOf(bar())].filter((field) => field.path === path).map(keyOf);
+    const ofPhases = path?.startsWith("motion.phases") && bar() ? phases.key : undefined;
+    return found.includes(edited) ? edited : found[0] ?? ofPhases;
   }
 
   // Whether there is a field for the error; the value stays as it was typed.  It is told there if that was changed, else
   // beside what was: a value that is refused lives in its own field alone.
   function showError({ field, message, remedy }, changed) {
-    const rowAt = (path) => rowOn(path) || (path?.startsWith("motion.phases") && phases.element.isConnected ? phases.row : undefined);
-    const own = rowAt(field), moved = changed.map(rowAt).filter(Boolean), there = own !== phases.row && moved.includes(own) ? own : moved[0] || own;
+    const own = keyAt(field), all = changed.map(keyAt).filter(Boolean);
+    const key = own !== phases.key && all.includes(own) ? own : all[0] || own;
     // A knob of the drawing has moved a border of the bar.
-    if (there === phases.row) there.input = phases.borderAt(changed[0]);
-    if (there) refuse(there, [message, remedy].filter(Boolean).join("; "));
+    const border = keysOf(changed[0] ?? "")[2];
+    if (key) refuse({ key, message: [message, remedy].filter(Boolean).join("; "), border });
     return Boolean(own);
   }
 
@@ -250,5 +202,5 @@ function sizesOf(at, acts) {
     return `${name} ${number ? `${number} ${unit}`.trim() : chosen ?? word("found")}`;
   }
 
-  return { show, follow, showError, restore, said, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field).filter((field) => !field.key) };
+  return { show, follow, showError, restore, said, refused: isRefused, fields: sizes };
 }

@@ -1,42 +1,43 @@
 // The views, small: a strip of them above the drawing, and a board of all of them.
 "use strict";
 
-function stripOf(at, open) {
-  const cards = { strip: new Map(), board: new Map() };
-  let names = [], turned = new Map();
+function stripOf({ at, open }) {
+  const PLACES = ["strip", "board"];
+  let names = [], shown = { beside: [], locked: () => false }, brought = null;
 
+  const cardAt = (place, name) => at(place).querySelector(`[data-open="${name}"]`);
+  const pictureAt = (place, name) => cardAt(place, name)?.querySelector("svg");
+
+  // What is drawn in a card stays there.
   function cardOf(place, { name, title, short }) {
-    const mechanism = name === "mechanism";
-    const card = make("button", {
-      type: "button", class: "view", "data-open": name, title, "aria-label": title, "data-key": `${place}/${name}`,
-      ...(place === "strip" ? { role: "tab", id: `view-${name}`, "aria-controls": "canvas", "aria-selected": "false" } : {}),
-    });
-    card.picture = drawSvg("svg", mechanism ? "scene" : "page", { "aria-hidden": "true", viewBox: "0 0 1 1" }, card);
-    if (!mechanism) card.steps = drawSvg("g", "steps", {}, card.picture);
-    card.append(make("span", { text: place === "strip" ? short : title }), make("i"));
-    return card;
+    const { view, beside, boarding, locked } = shown, isTab = place === "strip", isLarge = name === view;
+    return html`<button type="button" class="view${isTab && beside.includes(name) ? " beside" : ""}" data-open=${name}
+      data-key="${place}/${name}" title=${title} aria-label=${title} ?disabled=${locked(name)}
+      id=${isTab ? `view-${name}` : nothing} role=${isTab ? "tab" : nothing} aria-controls=${isTab ? "canvas" : nothing}
+      aria-selected=${isTab ? isLarge && !boarding : nothing} tabindex=${isTab ? isLarge - 1 : nothing}>
+      <svg class=${name === "mechanism" ? "scene" : "page"} aria-hidden="true" viewBox="0 0 1 1"></svg>
+      <span>${letters(isTab ? short : title)}</span><i></i></button>`;
+  }
+
+  function show() {
+    for (const place of PLACES) render(repeat(names, ({ name }) => name, (each) => cardOf(place, each)), at(place));
   }
 
   function build(found) {
-    const same = JSON.stringify(found) === JSON.stringify(names);
+    if (!alike(found, names)) brought = null;
     names = found;
-    if (same) return;
-    for (const place of ["strip", "board"]) {
-      cards[place] = new Map(found.map((each) => [each.name, cardOf(place, each)]));
-      keepingFocus(at(place), () => at(place).replaceChildren(...cards[place].values()));
-    }
-    turned = new Map();
+    show();
   }
 
   // A view in its small picture, on the strip or on the board; what changed has a point beside it for a while.
   function draw(place, view) {
-    const card = cards[place].get(view.name);
-    if (!card) return;
-    const first = !card.steps.childElementCount, changed = fillSteps(card.steps, view);
-    const [, , wide, high] = view.frame, { clientWidth, clientHeight } = card.picture;
-    card.picture.setAttribute("viewBox", view.frame.join(" "));
-    card.picture.style.setProperty("--pixel", `${Math.max(wide / (clientWidth || 70), high / (clientHeight || 46))}px`);
-    if (changed && !first) point(card);
+    const picture = pictureAt(place, view.name);
+    if (!picture) return;
+    const isFirst = !picture.childElementCount, steps = picture.firstElementChild || drawSvg("g", "steps", {}, picture);
+    const changed = fillSteps(steps, view), [, , wide, high] = view.frame, { clientWidth, clientHeight } = picture;
+    picture.setAttribute("viewBox", view.frame.join(" "));
+    picture.style.setProperty("--pixel", `${Math.max(wide / (clientWidth || 70), high / (clientHeight || 46))}px`);
+    if (changed && !isFirst) point(cardAt(place, view.name));
   }
 
   function point(card) {
@@ -45,29 +46,21 @@ function stripOf(at, open) {
   }
 
   function mechanism(data, phi) {
-    for (const place of ["strip", "board"]) {
-      const card = cards[place].get("mechanism");
-      if (!card) continue;
-      if (card.data !== data) {
-        turned.set(place, mechanismOf(card.picture, data));
-        card.picture.setAttribute("viewBox", data.box.join(" "));
-        card.data = data;
+    for (const picture of PLACES.map((place) => pictureAt(place, "mechanism")).filter(Boolean)) {
+      if (picture.turned?.data !== data) {
+        picture.turned = { data, ...mechanismOf(picture, data) };
+        picture.setAttribute("viewBox", data.box.join(" "));
       }
-      const scene = turned.get(place);
-      scene.show(scene.placeAt(phi));
+      picture.turned.show(picture.turned.placeAt(phi));
     }
   }
 
   // The view that is large; none is while all are on the board, but one is there for the keys.
-  function select(name, beside, boarding, locked) {
-    const moved = !boarding && cards.strip.get(name)?.getAttribute("aria-selected") === "false";
-    for (const [own, card] of cards.strip) {
-      card.setAttribute("aria-selected", own === name && !boarding);
-      card.classList.toggle("beside", beside.includes(own));
-      card.tabIndex = own === name ? 0 : -1;
-      card.disabled = cards.board.get(own).disabled = locked(own);
-    }
-    if (moved) cards.strip.get(name).scrollIntoView({ block: "nearest", inline: "center" });
+  function select(view, beside, boarding, locked) {
+    shown = { view, beside, boarding, locked };
+    show();
+    if (!boarding && brought !== view) cardAt("strip", view)?.scrollIntoView({ block: "nearest", inline: "center" });
+    brought = boarding ? null : view;
   }
 
   tabsOf(at("strip"), (tab) => open(tab.dataset.open));
@@ -78,7 +71,7 @@ function stripOf(at, open) {
 
   // Pixels for a millimetre that a view of this frame gets there.
   function scale(place, name, frame) {
-    const picture = cards[place].get(name)?.picture;
+    const picture = pictureAt(place, name);
     if (!picture || !frame) return place === "board" ? 0.9 : 0.2;
     return Math.min((picture.clientWidth || 70) / frame[2], (picture.clientHeight || 46) / frame[3]);
   }

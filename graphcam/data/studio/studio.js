@@ -41,16 +41,12 @@
       }
     },
   };
-  const { decimal } = page;
 
   // What one part asks of another goes through the page, for the parts ask it of each other in turns.
   Object.assign(page, walkOf(page));
   Object.assign(page, {
-    strip: stripOf(at, page.open),
-    sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), leave: () => page.leave(), refused: () => page.showStatus(), word, decimal }),
-    stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
-    showValues: valuesPanelOf(at("panel-values"), words),
-    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, shown: () => page.last, change: (changes) => page.change(changes), choose: (swept) => state.set({ swept }), decimal, language: config.language }),
+    strip: stripOf(page), sizes: sizesOf(page), stepPanel: stepPanelOf(page), showValues: valuesPanelOf(page),
+    whatIf: whatIfOf(page),
   });
   Object.assign(page, camAngleOf(page), askingOf(page), followingOf(page));
   Object.assign(page, changingOf(page));
@@ -60,8 +56,8 @@
     const drag = ({ handle, to: [x, y], ...more }) => handle === "guess" ? page.guess.drag([x, y]) : page.drag({ handle, to: [x, y - (page.picture(pane)?.down?.[handle.split("/")[0]] || 0)], ...more });
     pane.hands = handsOf(pane.at, pane.stage, {
       grab: ({ id }) => id === "guess" || page.grab(), drag, drop: (cancelled, id) => id === "guess" || page.drop(cancelled), key: (changes) => moved(changes, true), word,
-      written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
-      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, decimal(), moved),
+      written: (axis) => `${shortNumber(axis.value, page.decimal())} ${axis.unit}`.replace(" °", "°").trim(),
+      type: (handle, knob) => typeNumbers(pane.at("typed"), handle, knob, words, page.decimal(), moved),
     });
   }
   page.heldHands = () => panes.map(({ hands }) => hands).find((hands) => hands.held());
@@ -169,15 +165,19 @@
   function setMode(name) {
     if (name === now().mode || !isOpen(name)) return;
     page.still();
-    studioModes[now().mode]?.leave(studio);
-    studio.panel.card(null);
+    studioModes[now().mode]?.leave();
+    studio.panel.card(nothing);
     // What the person was at before is given back.
     const { task, name: called, view, step, part, phi, own } = now(), mine = own || { task, name: called, view, step, part, phi };
     state.set({ mode: name, own: name === "predict" || name === "tour" ? mine : null });
     if (task !== mine.task) wantWhole(mine);
     showModes();
-    studioModes[name]?.enter(studio);
+    studioModes[name]?.enter();
   }
+
+  const changed = (names) => studioModes[now().mode]?.changed?.(names);
+  state.subscribe(changed);
+  page.stage.onMove(() => changed([]));
 
   function showModes() {
     for (const button of at("modes").children) {
@@ -190,9 +190,10 @@
     config, words, state, stats, shown: page.shown, stage: page.stage, panes, ask: page.queue.question, setMode,
     announce: page.announce, open: page.open, go: page.go, load: page.load, draw: page.showAll, change: page.changeAny,
     panel: {
-      card(element) {
-        at("card").replaceChildren(...(element ? [element] : []));
-        at("panel").scrollTop = 0;
+      // What is new is read from its beginning.
+      card(content, { stays = false } = {}) {
+        render(content, at("card"));
+        if (!stays) at("panel").scrollTop = 0;
       },
     },
     setGuess(guess) {

@@ -16,20 +16,19 @@ function isReached(goal, { task, phi }) {
 }
 
 studioModes.tour = (() => {
-  let studio = null, tours = null, tour = null, place = 0, answered = new Set(), timer = 0, watching = false;
+  let tours = null, tour = null, place = 0, answered = new Set(), tried = new Set(), timer = 0;
   const seen = new Set();
-
-  const word = (name) => studio.words[name] ?? name;
-  const section = (...inside) => make("section", { class: "mode-card", "aria-label": word("tour") }, ...inside);
-  const focus = (id) => document.getElementById(id)?.focus({ preventScroll: true });
 
   // --- all tours -----------------------------------------------------------------------------------------------------------
 
-  function showAll() {
+  function showAll(focused = false) {
     tour = null;
-    const items = tours.map((each) => make("li", {}, make("button", { type: "button", "data-tour": each.id, onclick: () => start(each) },
-      make("b", { text: each.title }), make("span", { text: each.about + (seen.has(each.id) ? ` (${word("seen")})` : "") }))));
-    studio.panel.card(section(make("h2", { id: "tours-title", tabindex: "-1", text: word("tours") }), make("ul", { class: "tour-list" }, items)));
+    const seenSaid = ({ id }) => (seen.has(id) ? ` (${wordOf("seen")})` : "");
+    const itemOf = (each) => html`<li><button type="button" data-tour=${each.id} @click=${() => start(each)}>
+      <b>${letters(each.title)}</b><span>${letters(each.about + seenSaid(each))}</span></button></li>`;
+    studio.panel.card(modeCard("tour", html`<h2 id="tours-title" tabindex="-1">${wordOf("tours")}</h2>
+      <ul class="tour-list">${tours.map(itemOf)}</ul>`));
+    if (focused) focusOn("tours-title");
   }
 
   function start(each) {
@@ -42,63 +41,56 @@ studioModes.tour = (() => {
 
   function go(k) {
     place = k;
+    tried.clear();
     const card = tour.cards[k];
     // The view's last step is shown by no name, so that what comes after a change is its last step too.
     studio.load(card.task, tour.name, { view: card.view, step: card.step, part: null, board: false, phi: card.phi, panel: "step" });
     showCard();
-    focus("card-title");
+    focusOn("card-title");
     studio.announce(`${placeSaid()}. ${card.ask}`);
   }
 
-  const placeSaid = () => word("card_of").replace("{card}", place + 1).replace("{cards}", tour.cards.length);
+  const placeSaid = () => wordOf("card_of").replace("{card}", place + 1).replace("{cards}", tour.cards.length);
 
-  function progress() {
-    return make("div", { class: "progress", "aria-hidden": "true" }, tour.cards.map((_, k) => make("i", {
-      class: k === place ? "here" : answered.has(k) ? "done" : null,
-    })));
+  function choicesOf({ ask, choices, answer }, isDone) {
+    const stateOf = (k) => (isDone ? k === answer && "right" : tried.has(k) && "wrong") || nothing;
+    const buttonOf = (choice, k) => html`<button type="button" data-choice=${k} data-state=${stateOf(k)}
+      ?disabled=${isDone} @click=${() => choose(k)}>${letters(choice)}</button>`;
+    return html`<div class="choices" role="group" aria-label=${ask}>${choices.map(buttonOf)}</div>`;
   }
 
-  function choicesOf(card) {
-    if (!card.choices) return [];
-    const done = answered.has(place);
-    const buttons = card.choices.map((choice, k) => make("button", {
-      type: "button", "data-choice": k, text: choice, disabled: done, "data-state": done && k === card.answer ? "right" : null, onclick: () => choose(k),
-    }));
-    return [make("div", { class: "choices", role: "group", "aria-label": card.ask }, buttons)];
-  }
-
-  function showCard() {
-    const card = tour.cards[place], done = answered.has(place), last = place === tour.cards.length - 1;
-    studio.panel.card(section(
-      make("h2", { id: "card-title", tabindex: "-1", text: tour.title }),
-      make("p", { class: "hint", text: placeSaid() }), progress(),
-      make("p", { class: "question", text: card.ask }),
-      choicesOf(card),
-      !done && card.goal && make("p", { class: "hint", text: word(card.choices ? "do_it" : "do_it_only") }),
-      make("p", { id: "card-told", text: done ? `${word(card.choices ? "right" : "done_it")} ${card.why}` : "" }),
-      make("div", { class: "rows" },
-        place > 0 && make("button", { type: "button", id: "card-back", text: word("previous_card"), onclick: () => go(place - 1) }),
-        make("button", { type: "button", class: done ? "main" : null, id: "card-next", text: word(last ? "finish_tour" : "next_card"), onclick: on }),
-        make("button", { type: "button", id: "tours-all", text: word("all_tours"), onclick: () => (showAll(), focus("tours-title")) }))));
+  function showCard(more) {
+    const card = tour.cards[place], { choices, goal, ask, why } = card;
+    const isDone = answered.has(place), isLast = place === tour.cards.length - 1;
+    const wrong = tried.size ? wordOf("not_right") : "";
+    const told = isDone ? `${wordOf(choices ? "right" : "done_it")} ${why}` : wrong;
+    const progressOf = (_, k) => html`<i class=${k === place ? "here" : answered.has(k) ? "done" : nothing}></i>`;
+    studio.panel.card(modeCard("tour", html`<h2 id="card-title" tabindex="-1">${letters(tour.title)}</h2>
+      <p class="hint">${placeSaid()}</p>
+      <div class="progress" aria-hidden="true">${tour.cards.map(progressOf)}</div>
+      <p class="question">${letters(ask)}</p>
+      ${choices ? choicesOf(card, isDone) : nothing}
+      ${!isDone && goal ? html`<p class="hint">${wordOf(choices ? "do_it" : "do_it_only")}</p>` : nothing}
+      <p id="card-told">${letters(told)}</p>
+      <div class="rows">${place > 0 ? modeButton("card-back", "previous_card", () => go(place - 1)) : nothing}${
+        modeButton("card-next", isLast ? "finish_tour" : "next_card", on, isDone)}${
+        modeButton("tours-all", "all_tours", () => showAll(true))}</div>`), more);
   }
 
   function on() {
     if (place < tour.cards.length - 1) return go(place + 1);
     seen.add(tour.id);
-    showAll();
-    focus("tours-title");
+    showAll(true);
   }
 
   // --- answers ---------------------------------------------------------------------------------------------------------------
 
   function choose(k) {
-    const card = tour.cards[place];
-    if (k === card.answer) return answer("right");
-    const button = document.querySelector(`#card [data-choice="${k}"]`);
-    button.dataset.state = "wrong";
-    document.getElementById("card-told").textContent = word("not_right");
+    if (k === tour.cards[place].answer) return answer("right");
+    tried.add(k);
+    showCard({ stays: true });
     showTold();
-    studio.announce(word("not_right"));
+    studio.announce(wordOf("not_right"));
   }
 
   const showTold = () => document.getElementById("card-told").scrollIntoView({ block: "nearest" });
@@ -107,13 +99,13 @@ studioModes.tour = (() => {
     answered.add(place);
     const here = document.getElementById("card").contains(document.activeElement);
     showCard();
-    if (here) focus("card-next");
+    if (here) focusOn("card-next");
     showTold();
-    studio.announce(`${word(how)} ${tour.cards[place].why}`);
+    studio.announce(`${wordOf(how)} ${tour.cards[place].why}`);
   }
 
   function changed(names) {
-    if (!tour || studio.state.get().mode !== "tour" || !(names.includes("task") || names.includes("phi"))) return;
+    if (!tour || !(names.includes("task") || names.includes("phi"))) return;
     const { goal } = tour.cards[place], here = place;
     clearTimeout(timer);
     if (!goal || answered.has(place)) return;
@@ -124,10 +116,7 @@ studioModes.tour = (() => {
 
   // --- the mode ----------------------------------------------------------------------------------------------------------------
 
-  async function enter(page) {
-    studio = page;
-    if (!watching) studio.state.subscribe(changed);
-    watching = true;
+  async function enter() {
     if (!tours) {
       const found = await studio.ask({ ask: "tours", language: studio.config.language });
       if (!found.ok) return;
@@ -141,5 +130,5 @@ studioModes.tour = (() => {
     tour = null;
   }
 
-  return { enter, leave };
+  return { enter, leave, changed };
 })();

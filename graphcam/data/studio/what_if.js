@@ -10,25 +10,19 @@ const VALUE_NAMES = {
   pressure_angle_return: "max_pressure_angle_return_deg", curvature_radius: "min_pitch_curvature_radius", max_v: "max_v",
 };
 
-function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, language }) {
-  const size = make("select", { id: "sweep-size", "data-key": "sweep-size" });
-  const charts = make("div", { class: "charts" }), both = make("div");
-  const pin = make("button", { type: "button", class: "pins", text: words.pin, onclick: () => document.getElementById("pin").click() });
-  element.append(make("label", { class: "from" }, make("span", { text: words.over }), size), charts, pin, both);
-  let fields = [], asked = "", sweep = null, running = 0;
+function whatIfOf(page) {
+  const { at, words, decimal, last } = page, state = page.state.get, { language } = page.config;
+  let fields = [], asked = "", sweep = null, running = 0, values = [], pinnedValues = null;
 
-  const fieldOf = () => fields.find((field) => field.path === size.value);
+  const byPath = (isWanted) => fields.find(({ path }) => isWanted(path));
+  const fieldOf = () =>
+    byPath((path) => path === state().swept) || byPath((path) => /offset|distance/.test(path)) || fields[0];
   const now = (task, field) => valueAt(task, field.path) ?? (task === state().task ? field.value : null);
 
   // The sizes that the engine can sweep.
   function offer(found) {
-    const optionsOf = (all) => JSON.stringify(all.map((field) => [field.path, field.name])), same = optionsOf(found) === optionsOf(fields);
     fields = found;
-    if (same) return;
-    const before = state().swept ?? size.value;
-    size.replaceChildren(...fields.map((field) => make("option", { value: field.path, text: field.name })));
-    const wanted = fields.find((field) => field.path === before) || fields.find((field) => /offset|distance/.test(field.path)) || fields[0];
-    if (wanted) size.value = wanted.path;
+    draw();
   }
 
   // --- a chart: 300 by 110, the curve between its least and greatest value -------------------------------------------------
@@ -68,48 +62,80 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
 
   // The curves are exact, and rounded is nothing; the cam on the page has sizes that were adopted.
   function saidOf({ id, unit }, here) {
-    const { values = [], sizes = {} } = shown(), value = values.find((each) => each.id === VALUE_NAMES[id]);
+    const { values = [], sizes = {} } = last, value = values.find((each) => each.id === VALUE_NAMES[id]);
     const own = VALUE_NAMES[id] ? value && Math.abs(value.exact) : sizes[id], exact = here === null ? "" : written(here, unit);
     const adopted = own === null || own === undefined ? exact : written(id === "curvature_radius" && here < 0 ? -own : own, unit);
-    return [make("strong", { text: adopted }), exact && exact !== adopted ? make("small", { text: words.not_rounded.replace("{value}", exact) }) : null];
+    const more = () => html`<small>${words.not_rounded.replace("{value}", exact)}</small>`;
+    return html`<strong>${adopted}</strong>${exact && exact !== adopted ? more() : nothing}`;
   }
 
+  // A cam that differs in other sizes too does not lie on the curve.
+  const isOnCurve = (field, task, pinned) =>
+    alike(withChanges(task, changesOf(field, valueAt(pinned, field.path) ?? null)), pinned);
+
   function chartOf(curve, field, task, pinned) {
-    const { at, limits = {} } = sweep, limit = limits[curve.id] ?? undefined, scales = scalesOf(curve, at, limit);
-    if (!scales.known) return null;
-    const picture = make("div"), svg = drawSvg("svg", "sweep-picture", { viewBox: `0 0 ${WIDE} ${HIGH}`, preserveAspectRatio: "none", "aria-hidden": "true" }, picture);
-    drawSvg("path", "axis", { d: `M0 ${HIGH - EDGE}H${WIDE}` }, svg);
-    if (limit !== undefined) drawSvg("path", "limit", { d: `M0 ${scales.y(limit)}H${WIDE}` }, svg);
-    drawSvg("path", "curve", { d: lineOf(at, curve.values, scales) }, svg);
+    const { at, limits = {}, from, to } = sweep, limit = limits[curve.id] ?? undefined;
+    const scales = scalesOf(curve, at, limit);
+    if (!scales.known) return nothing;
     const value = now(task, field), here = value === null ? null : valueOn(curve, at, value);
-    if (value !== null) drawSvg("path", "cursor", { d: `M${scales.x(value)} 0V${HIGH}` }, svg);
-    const dots = [[pinned && now(pinned, field), "pin-dot"], [value, "dot"]].map(([size, name]) => {
-      const on = size === null || size === undefined ? null : valueOn(curve, at, size);
-      // A cam that differs in other sizes too does not lie on the curve.
-      if (on === null || (name === "pin-dot" && !alike(withChanges(task, pinned && changesOf(field, valueAt(pinned, field.path) ?? null)), pinned))) return null;
-      return make("i", { class: name, style: `left: ${100 * scales.x(size) / WIDE}%; top: ${100 * scales.y(on) / HIGH}%` });
-    });
-    return make("figure", { class: "sweep" },
-      make("figcaption", {}, make("span", { text: curve.title }), " ", make("span", { class: "said" }, saidOf(curve, here))),
-      make("div", { class: "plot" }, picture.firstChild, dots,
-        make("span", { class: "high", text: written(scales.high, curve.unit) }), make("span", { class: "low", text: written(scales.low, curve.unit) })),
-      make("p", { class: "ends" }, make("span", { text: written(sweep.from, field.unit) }), make("span", { text: written(sweep.to, field.unit) })));
+    const line = (name, d) => svg`<path class=${name} d=${d}></path>`;
+    const dot = (size, name) => {
+      const on = valueOn(curve, at, size), left = 100 * scales.x(size) / WIDE, top = 100 * scales.y(on) / HIGH;
+      return on === null ? nothing : html`<i class=${name} style="left: ${left}%; top: ${top}%"></i>`;
+    };
+    const before = pinned && isOnCurve(field, task, pinned) ? now(pinned, field) : null;
+    return html`<figure class="sweep">
+      <figcaption><span>${letters(curve.title)}</span> <span class="said">${saidOf(curve, here)}</span></figcaption>
+      <div class="plot" @click=${take}>
+        <svg class="sweep-picture" viewBox="0 0 ${WIDE} ${HIGH}" preserveAspectRatio="none" aria-hidden="true">
+          ${line("axis", `M0 ${HIGH - EDGE}H${WIDE}`)}
+          ${limit === undefined ? nothing : line("limit", `M0 ${scales.y(limit)}H${WIDE}`)}
+          ${line("curve", lineOf(at, curve.values, scales))}
+          ${value === null ? nothing : line("cursor", `M${scales.x(value)} 0V${HIGH}`)}
+        </svg>
+        ${before === null ? nothing : dot(before, "pin-dot")}
+        ${value === null ? nothing : dot(value, "dot")}
+        <span class="high">${written(scales.high, curve.unit)}</span>
+        <span class="low">${written(scales.low, curve.unit)}</span>
+      </div>
+      <p class="ends"><span>${written(from, field.unit)}</span><span>${written(to, field.unit)}</span></p></figure>`;
   }
 
   // A press on a chart takes the size there.
-  charts.addEventListener("click", (event) => {
-    const plot = event.target.closest(".plot"), field = fieldOf();
-    if (!plot || !field || !sweep) return;
-    const box = plot.getBoundingClientRect(), share = (event.clientX - box.left) / box.width;
+  function take({ currentTarget, clientX }) {
+    const field = fieldOf(), box = currentTarget.getBoundingClientRect(), share = (clientX - box.left) / box.width;
     const value = sweep.from + share * (sweep.to - sweep.from);
-    change(changesOf(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
-  });
+    page.change(changesOf(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
+  }
+
+  function chartsOf(field) {
+    const { task, pin } = state();
+    if (!sweep || sweep.path !== field?.path) return html`<p class="hint">${words.sweeping}</p>`;
+    if (!sweep.curves) return html`<p class="hint">${letters(sweep.message || "")}</p>`;
+    return repeat(sweep.curves, ({ id }) => id, (curve) => chartOf(curve, field, task, pin));
+  }
+
+  // The present cam and the pinned one, side by side.
+  function both() {
+    if (!pinnedValues) return html`<p class="hint">${words.pin_about}</p>`;
+    const columns = [["now", "now", ({ said }) => said.drawn], pinnedColumn(pinnedValues)];
+    return html`<h3>${words.side_by_side}</h3>${valuesTable(values, columns, words)}`;
+  }
 
   function draw() {
-    const field = fieldOf(), { task, pin: pinned } = state();
-    if (!sweep || !field || sweep.path !== field.path) return charts.replaceChildren(make("p", { class: "hint", text: words.sweeping }));
-    if (!sweep.curves) return charts.replaceChildren(make("p", { class: "hint", text: sweep.message || "" }));
-    charts.replaceChildren(...sweep.curves.map((curve) => chartOf(curve, field, task, pinned)).filter(Boolean));
+    const field = fieldOf(), isChosen = (path) => path === field.path;
+    render(html`
+      <label class="from"><span>${words.over}</span>
+        <select id="sweep-size" data-key="sweep-size" @change=${chosen}>${
+          options(fields.map(({ path, name }) => [path, name]), isChosen)}</select></label>
+      <div class="charts">${chartsOf(field)}</div>
+      <button type="button" class="pins" ?hidden=${pinnedValues} @click=${() => at("pin").click()}>${words.pin}</button>
+      <div>${both()}</div>`, at("panel-what-if"));
+  }
+
+  function chosen({ target }) {
+    page.state.set({ swept: target.value });
+    update();
   }
 
   async function update() {
@@ -128,7 +154,8 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
     const place = (k) => min + (max - min) * k / (DESIGNS - 1);
     let found = null;
     for (let k = 0; k < DESIGNS; k += PIECE) {
-      const answer = await ask({ ask: "sweep", language, task, path, from: place(k), to: place(k + PIECE - 1), count: PIECE });
+      const from = place(k), to = place(k + PIECE - 1);
+      const answer = await page.queue.question({ ask: "sweep", language, task, path, from, to, count: PIECE });
       if (own !== running) return;
       found = answer.ok === false ? { path, message: answer.error.message } : joined(found, answer);
       if (!found.curves) break;
@@ -147,15 +174,10 @@ function whatIfOf(element, words, { ask, state, shown, change, choose, decimal, 
       curves: [...curves.values()].map((curve) => ({ ...curve, values: [...valuesIn(found, curve.id), ...valuesIn(piece, curve.id)] })),
     };
   }
-  size.addEventListener("change", () => {
-    choose(size.value);
-    update();
-  });
 
-  // The present cam and the pinned one, side by side.
-  function compare(values, pinned) {
-    pin.hidden = Boolean(pinned);
-    both.replaceChildren(...(pinned ? [make("h3", { text: words.side_by_side }), valuesTable(values, [["now", "now", ({ said }) => said.drawn], pinnedColumn(pinned)], words)] : [make("p", { class: "hint", text: words.pin_about })]));
+  function compare(now, pinned) {
+    [values, pinnedValues] = [now, pinned];
+    draw();
   }
 
   return { offer, update, draw, compare };
