@@ -21,7 +21,7 @@ import graphcam
 from graphcam.given.follower import FOLLOWER_CLASSES, FOLLOWERS_BY_KIND, Follower, Kind
 from graphcam.mechanism.followers import EXACT_FUNCTIONS
 from graphcam.solving.task_board import drawn_follower
-from graphcam.studio.predictions import BASE_TASKS, SIZE_RANGES
+from graphcam.studio.predictions import SEEDED_TASKS
 from graphcam.studio.sizes_form import KINDS as KIND_NAMES_IN_FORM
 from graphcam.sweeps.design_space import SpaceCamTable
 from graphcam.sweeps.designs import Designs
@@ -179,7 +179,7 @@ def test_nobody_but_the_followers_own_files_asks_which_follower_it_is():
 
 
 def test_every_list_of_followers_has_every_follower():
-    for listed in (FOLLOWER_TABLES, KIND_NAMES_IN_FORM, BASE_TASKS, SIZE_RANGES):
+    for listed in (FOLLOWER_TABLES, KIND_NAMES_IN_FORM, SEEDED_TASKS):
         assert listed.keys() == FOLLOWERS_BY_KIND.keys()
     assert set(get_args(Kind)) == FOLLOWERS_BY_KIND.keys()
     assert EXACT_FUNCTIONS.keys() == set(FOLLOWER_CLASSES) == set(get_args(Follower))

@@ -12,7 +12,7 @@ import json
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from graphcam.errors import DesignError
@@ -26,6 +26,11 @@ SAVE_REMEDY = say("save the task file and pass that on")
 WHOLE_ADDRESS_REMEDY = say("open the address as it was given, from # to the end")
 _RAW_DEFLATE = -15
 """zlib's number for deflate without a header."""
+
+
+def _told(key: str, kind: str, *usual: Any) -> Any:
+    """A field that an address tells under a key: the kind of its value, and the values that the page leaves out."""
+    return field(default=None, metadata={"told": (key, kind, usual)})
 
 
 @dataclass(frozen=True)
@@ -46,33 +51,22 @@ class StudioPlace:
 
     task: Mapping[str, Any]
     built_in: str = "coursework"
-    view: str | None = None
-    beside: str | None = None
-    step: str | None = None
-    part: int | None = None
-    station: int | None = None
-    phi: float | None = None
-    mode: str | None = None
-    panel: str | None = None
-    swept: str | None = None
-    pin: Mapping[str, Any] | None = None
-    exercise: Mapping[str, Any] | None = None
-    language: str | None = None
+    view: str | None = _told("v", "string", "")
+    beside: str | None = _told("w", "string")
+    step: str | None = _told("s", "string")
+    part: int | None = _told("t", "number")
+    station: int | None = _told("q", "number")
+    phi: float | None = _told("p", "number", 30)
+    mode: str | None = _told("m", "string", "play")
+    panel: str | None = _told("o", "string", "sizes", "step")
+    swept: str | None = _told("f", "string")
+    pin: Mapping[str, Any] | None = _told("n", "task")
+    exercise: Mapping[str, Any] | None = _told("x", "object")
+    language: str | None = _told("l", "string", "en")
 
 
-FIELDS = (
-    ("v", "view", "string", [""]),
-    ("w", "beside", "string", []),
-    ("s", "step", "string", []),
-    ("t", "part", "number", []),
-    ("q", "station", "number", []),
-    ("p", "phi", "number", [30]),
-    ("m", "mode", "string", ["play"]),
-    ("o", "panel", "string", ["sizes", "step"]),
-    ("f", "swept", "string", []),
-    ("n", "pin", "task", []),
-    ("x", "exercise", "object", []),
-    ("l", "language", "string", ["en"]),
+FIELDS = tuple(
+    (key, each.name, kind, usual) for each in fields(StudioPlace) for key, kind, usual in each.metadata.values()
 )
 """What an address says besides the task: key, name, kind of the value, and the values that the page leaves out."""
 _KINDS: dict[str, type | tuple[type, ...]] = {"string": str, "number": (int, float), "object": dict, "task": dict}

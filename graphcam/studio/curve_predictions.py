@@ -144,19 +144,18 @@ def _where_steep(chain: Chain, x: float, curve: Points, rising: NDArray[np.bool_
         greatest=top.imag * per_mm,
     )
     apart = (top.real - fastest) * per_mm
-    if abs(apart) < 1:
-        reason = say("The angle is due to the velocity, whose maximum is so sharp here that the two coincide.")
-    elif apart < 0:
+    reason = say("The angle is due to the velocity, whose maximum is so sharp here that the two coincide.")
+    if apart <= -1:
         reason = say(
             "The angle is due to the velocity, and a low position of the follower enlarges it: so α has its "
             "maximum {apart:.1f}° before v."
         )
-    else:
+    elif apart >= 1:
         reason = say(
             "The angle is due to the velocity, and here the position of the arm shifts its maximum to "
             "{apart:.1f}° after that of v."
         )
-    return sequence([told, reason.with_values(apart=abs(apart)) if abs(apart) >= 1 else reason], " ")
+    return sequence([told, reason.with_values(apart=abs(apart))], " ")
 
 
 # --- where the cam is sharpest ----------------------------------------------------------------------------------------

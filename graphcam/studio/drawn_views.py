@@ -20,7 +20,7 @@ from graphcam.sheets.text_measures import points_size
 from graphcam.sheets.view_panels import LABEL_MARGIN
 from graphcam.studio.held_solutions import MAX_HEIGHT, HeldView
 from graphcam.studio.view_steps import NamedStep
-from graphcam.studio.views_request import AskedView
+from graphcam.studio.views_request import USUAL_LETTER_PX, AskedView
 from graphcam.words import Caption, Tell, say
 
 LABEL_ROOM = 12.0
@@ -102,7 +102,7 @@ def drawn_view(
     ------
     DesignError : it is larger than any sheet; while it is held nothing depends on how large it is
     """
-    letters = screen_letters(paper, max(asked.px_per_mm, 0.01), asked.letter_px)
+    letters = screen_letters(paper, max(asked.px_per_mm, 0.01), asked.letter_px or USUAL_LETTER_PX)
     steps = (
         [replace(each, step=_plain(each.step, letters.small, lowest=lowest)) for each in steps]
         if asked.plain

@@ -7,7 +7,7 @@ from typing import Any
 
 from graphcam.errors import DesignError, GraphcamError, TaskError, choice_limit
 from graphcam.language import ENGLISH, Language, language, languages
-from graphcam.studio.task_paths import PATH_PATTERN, steps_of, value_at
+from graphcam.studio.task_paths import PATH_PATTERN, steps_of, table_in, value_at
 from graphcam.tasks.file_faults import EXAMPLE_REMEDY, path_of_key
 from graphcam.tasks.task import table_of
 from graphcam.words import message
@@ -99,11 +99,10 @@ def answer(request: Mapping[str, Any]) -> Plain:
 
 def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
     """The field of the form, or the key of the request, that an error is about."""
-    task = given if isinstance(given := request.get("task"), dict) else {}
     quantity = getattr(error, "quantity", "")
     if quantity in request:
         return quantity
-    return field_of(error, task) or (quantity if PATH_PATTERN.fullmatch(quantity) else "")
+    return field_of(error, table_in(request, "task")) or (quantity if PATH_PATTERN.fullmatch(quantity) else "")
 
 
 def _function(ask: Any) -> Callable[[Mapping[str, Any]], Plain]:

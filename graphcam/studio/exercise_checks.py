@@ -15,7 +15,6 @@ import hashlib
 import hmac
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from graphcam.errors import DesignError
@@ -33,27 +32,6 @@ CELL_MARGIN = 1e-5
 MAX_ANSWERS = 100
 
 
-@dataclass(frozen=True)
-class AnswerCheck:
-    """What the page knows of an answer.
-
-    offset, width : of the cells, in the answer's unit
-    right : the hash of the right cell
-    hints : by the hash of a cell into which a usual mistake leads, the number of its sentence
-    """
-
-    offset: float
-    width: float
-    right: str
-    hints: Mapping[str, int]
-
-    @property
-    def plain(self) -> dict[str, Any]:
-        """The check as plain data for the page."""
-        said: dict[str, Any] = {"offset": self.offset, "width": self.width, "right": self.right}
-        return said | ({"hints": dict(self.hints)} if self.hints else {})
-
-
 def check_of(
     name: str,
     key: float,
@@ -61,14 +39,16 @@ def check_of(
     salt: bytes,
     mistakes: Sequence[tuple[float, int]] = (),
     iterations: int = ITERATIONS,
-) -> AnswerCheck:
-    """The check of an answer by its name.
+) -> dict[str, Any]:
+    """What the page knows of an answer, by its name, as plain data.
 
     key, tolerance : what counts as right: everything within the tolerance on either side
     mistakes : answers of usual mistakes, and the number of the sentence for each; those in the key's cell are right
+    returns : ``offset`` and ``width`` of the cells, in the answer's unit; ``right``, the hash of the right one; and if
+        there are such ``hints``, by the hash of a cell into which a usual mistake leads, the number of its sentence
 
     >>> made = check_of("r0", 43.28, 0.4, b"salt")
-    >>> [is_right("r0", x, made.plain, b"salt") for x in (42.87, 42.88, 43.3, 43.68, 43.69)]
+    >>> [checked("r0", x, made, b"salt")["right"] for x in (42.87, 42.88, 43.3, 43.68, 43.69)]
     [False, True, True, True, False]
     """
     width = _written(2 * tolerance * (1 + CELL_MARGIN))
@@ -79,7 +59,8 @@ def check_of(
         number = cell(value, offset, width)
         if number != right:
             hints.setdefault(hashed(name, number, salt, iterations), sentence)
-    return AnswerCheck(offset, width, hashed(name, right, salt, iterations), hints)
+    made = {"offset": offset, "width": width, "right": hashed(name, right, salt, iterations)}
+    return made | ({"hints": hints} if hints else {})
 
 
 def cell(answer: float, offset: float, width: float) -> int:
@@ -123,10 +104,13 @@ def _written(number: float) -> float:
     return float(f"{number:.{CELL_DIGITS}g}")
 
 
-def is_right(name: str, answer: float, check: Mapping[str, Any], salt: bytes, iterations: int = ITERATIONS) -> bool:
-    """Whether an answer falls into the right cell."""
-    made = hashed(name, cell(answer, float(check["offset"]), float(check["width"])), salt, iterations)
-    return hmac.compare_digest(made, str(check["right"]))
+def checked(
+    name: str, answer: Any, check: Mapping[str, Any], salt: bytes, iterations: int = ITERATIONS
+) -> dict[str, Any]:
+    """Whether an answer falls into the right cell, and if not the number of the sentence for it, None without one."""
+    made = hashed(name, cell(float(answer), float(check["offset"]), float(check["width"])), salt, iterations)
+    right = hmac.compare_digest(made, str(check["right"]))
+    return {"right": right, "hint": None if right else dict(check.get("hints", {})).get(made)}
 
 
 def exercise_answer(request: Mapping[str, Any]) -> dict[str, Any]:
@@ -148,16 +132,8 @@ def exercise_answer(request: Mapping[str, Any]) -> dict[str, Any]:
     try:
         salt = base64.urlsafe_b64decode(str(exercise["salt"]))
         checks = {str(asked["name"]): asked["check"] for asked in exercise["answers"] if "check" in asked}
-        found = {
-            name: _check_result(name, given[name], checks[name], salt, iterations) for name in given if name in checks
-        }
+        found = {name: checked(name, given[name], checks[name], salt, iterations) for name in given if name in checks}
     except (KeyError, TypeError, ValueError, OverflowError, ZeroDivisionError) as error:
         shown = say("not readable ({error})", error=str(error))
         raise DesignError("exercise", shown, say("an exercise as a link of graphcam has it")) from None
     return {"checked": found}
-
-
-def _check_result(name: str, answer: Any, check: Mapping[str, Any], salt: bytes, iterations: int) -> dict[str, Any]:
-    made = hashed(name, cell(float(answer), float(check["offset"]), float(check["width"])), salt, iterations)
-    right = hmac.compare_digest(made, str(check["right"]))
-    return {"right": right, "hint": None if right else dict(check.get("hints", {})).get(made)}

@@ -41,7 +41,6 @@ POINT_NAMES = {
     "C1": say("Centre C₁ of the first arc"),
     "C2": say("Centre C₂ of the second arc"),
 }
-AXIS_NAMES = ("x", "y")
 ALWAYS_GIVEN = "motion.tolerance", "motion.radii", "limits.pressure_angle_rise"
 """Numbers that a file may leave out, but a task has."""
 
@@ -94,6 +93,16 @@ def unit_of(task: Task | ArcsTask, path: str, number: DeclaredNumber) -> str:
     return DEGREE_SIGN if own == "deg" else str(printed_unit(own))
 
 
+def lift_unit(column: str) -> str:
+    """The unit of a lift, by the column of a table that has it: "s_mm" or "s_deg"."""
+    return DEGREE_SIGN if column == "s_deg" else "mm"
+
+
+def coordinate_name(point: str, k: int) -> Caption:
+    """The name of a coordinate of a point of the arcs."""
+    return say("{point}, {axis}", point=POINT_NAMES[point], axis="xy"[k])
+
+
 def must_agree(arcs: ArcsTable, name: str) -> list[str]:
     """The paths of what has to agree with a size of the arcs, and is left open where that is moved.
 
@@ -134,46 +143,29 @@ class FieldMaker:
     def _declared(self) -> Mapping[str, DeclaredNumber]:
         return {**numbers_of(self.task), "pencil": PENCIL}
 
-    def number(self, path: str) -> Field:
-        """A number, with what was adopted for it if it may be left open.
+    def number(self, path: str, name: Caption | None = None) -> Field:
+        """A number, with what was adopted for it if it may be left open; its name, if not that of its declaration.
 
         Of a list that is left open as a whole, ``first`` is put there before one of its numbers is.
         """
-        number = self._declared[path]
-        assert number.name
-        field = self._number(path, number, number.name)
-        if not number.is_open or path.startswith(ALWAYS_GIVEN):
+        number, value = self._declared[path], value_at(self.said, path)
+        called, unit = name or number.name, unit_of(self.task, path, number)
+        assert called
+        field = self.field(path, "number", called, value, unit, **self.ranges[path].plain())
+        whole, bracket, _ = path.partition("[")
+        if not number.is_open or path.startswith(ALWAYS_GIVEN) or (bracket and path not in self.adopted):
             return field
         field |= {"kind": "open-number", "adopted": self.adopted.get(path)}
-        whole, bracket, _ = path.partition("[")
         if not bracket:
             return field
         field["open"] = whole
         first = [value for each, value in self.adopted.items() if each.startswith(f"{whole}[")]
-        return field if field["value"] is not None else field | {"first": {whole: first}}
+        return field if value is not None else field | {"first": {whole: first}}
 
-    def _number(self, path: str, number: DeclaredNumber, name: Caption) -> Field:
-        return {
-            "path": path,
-            "group": self.tell(group_of(path)),
-            "name": self.tell(name),
-            "unit": self.unit(unit_of(self.task, path, number)),
-            "kind": "number",
-            "value": value_at(self.said, path),
-            **self.ranges[path].plain(),
-        }
-
-    def coordinate(self, arcs: ArcsTable, name: str, k: int, adopted: tuple[float, ...] | None) -> Field:
-        """A coordinate of a point of the arcs, with what was found if the point may be left out."""
-        path = f"arcs.{name}"
-        called = say("{point}, {axis}", point=POINT_NAMES[name], axis=AXIS_NAMES[k])
-        field = self._number(f"{path}[{k}]", self._declared[f"{path}[{k}]"], called)
-        freed = dict.fromkeys(must_agree(arcs, name))
-        if adopted is None:
-            return field | {"first": freed}
-        field |= {"kind": "open-number", "adopted": adopted[k], "open": path}
-        first = {} if field["value"] is not None else {path: list(adopted)}
-        return field | {"first": {**freed, **first}}
+    def field(self, path: str, kind: str, name: Caption, value: Any, unit: str = "", **more: Any) -> Field:
+        """What every field says, and more."""
+        named = {"path": path, "group": self.tell(group_of(path)), "name": self.tell(name), "unit": self.unit(unit)}
+        return {**named, "kind": kind, "value": value, **more}
 
     def choice(self, path: str, name: Caption, choices: Iterable[tuple[Any, Words]]) -> Field:
         """A field for one of several; what stands in the task is among them."""
@@ -181,15 +173,7 @@ class FieldMaker:
         offered = [{"value": each, "name": self.tell(title)} for each, title in choices]
         if value is not None and all(each["value"] != value for each in offered):
             offered.append({"value": value, "name": str(value)})
-        return {
-            "path": path,
-            "group": self.tell(group_of(path)),
-            "name": self.tell(name),
-            "unit": "",
-            "kind": "choice",
-            "value": value,
-            "choices": offered,
-        }
+        return self.field(path, "choice", name, value, choices=offered)
 
     def unit(self, unit: str) -> str:
         """A unit in the language of the page."""

@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from graphcam.drafting.euclid import UP
 from graphcam.drafting.scale import printed_unit
+from graphcam.errors import DesignError
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
 from graphcam.solving.arcs_solution import AnySolution
@@ -29,6 +31,8 @@ MAGNET_REACH = 2.5
 COARSE_STEPS = 10
 """A coarse step is so many steps."""
 DECIMALS = 3
+MAX_DISTANCE = 1e6
+"""No place on paper is farther away [mm]."""
 Mark = Callable[[Any], Any] | Callable[[Any, Any], Any]
 """The place of a mark for one size or two [mm of paper]."""
 MAX_STEPS, NUDGE = 30, 1e-6
@@ -218,37 +222,40 @@ def _way(mark: Callable[..., Any], sizes: Sequence[float]) -> complex:
     return complex(mark(first + NUDGE, *others) - mark(first - NUDGE, *others))
 
 
-def angle_handle(
+def station_handle(
+    view: str, key: str, name: Caption, at: complex, axis: HandleAxis, places: ArrayLike, values: Sequence[float]
+) -> Handle:
+    """A handle that goes to the nearest of some places (n,), each of which stands for a value of its axis."""
+    return Handle(view, key, name, at, "xy", (axis,), lambda to, fine: {axis.path: values[nearest_station(places, to)]})
+
+
+def turn_handle(
+    view: str, key: str, name: Caption, at: complex, phi: float, places: ArrayLike, angles: ArrayLike
+) -> Handle:
+    """A handle of the cam angle [degrees], at the nearest of some places, which belong to angles [rad]."""
+    degrees = [round(each, 6) for each in np.degrees(angles).tolist()]
+    return station_handle(view, key, name, at, phi_axis(phi), places, degrees)
+
+
+def radius_handle(
+    solution: Solution,
     view: str,
     key: str,
     name: Caption,
-    at: complex,
-    state: "HandleState",
-    angle: Callable[[complex, bool], float],
-    shape: str = "xy",
+    mu: float,
+    least: float,
+    room: SizeRange | None = None,
+    **extra: Any,
 ) -> Handle:
-    """A handle of the cam angle.
+    """A handle of the prime radius, as far below the cam centre; the least one, on a fine step, draws it.
 
-    angle : where the hand puts it [degrees], finely or not
+    mu : mm to a millimetre of paper;  least : NaN where there is none;  room, extra : see :func:`axis_of`
     """
-    return Handle(view, key, name, at, shape, (phi_axis(state.phi),), lambda to, fine: {"phi": angle(to, fine)})
-
-
-def angle_at(phi: ArrayLike, places: ArrayLike) -> Callable[[complex, bool], float]:
-    """The cam angle [degrees] at the nearest of some places, which belong to angles [rad]."""
-    return lambda to, fine: in_degrees(float(np.asarray(phi)[nearest_station(places, to)]))
-
-
-@dataclass(frozen=True)
-class HandleState:
-    """What is shown besides the task.
-
-    phi : cam angle [degrees], from 0 to 360
-    station : that the velocity plan shows, by its number; None is the one that it shows by itself
-    """
-
-    phi: float = 0.0
-    station: int | None = None
+    axis = axis_of(solution, "cam.prime_radius", "y", room, sign=-1, **extra)
+    fine = axis.range.step / 5
+    found = [] if math.isnan(least) else [round(math.ceil(least / fine - 1e-9) * fine, 9)]
+    too_small = axis.value < least - fine / 10
+    return mark_handle(view, key, name, lambda r0: -UP * r0 / mu, [axis], magnets=found, limit=too_small)
 
 
 def on_page(place: complex) -> list[float]:
@@ -260,24 +267,39 @@ def on_page(place: complex) -> list[float]:
     return [round(place.real, DECIMALS) + 0.0, round(-place.imag, DECIMALS) + 0.0]
 
 
-def nearest_magnet(value: float, magnets: Sequence[float], reach: float) -> float | None:
-    """The magnet that a value is drawn to, if any.
-
-    >>> nearest_magnet(4.2, [0.0, 5.0], 1.0), nearest_magnet(3.0, [0.0, 5.0], 1.0)
-    (5.0, None)
-    """
-    near = [each for each in magnets if abs(each - value) <= reach]
-    return min(near, key=lambda each: abs(each - value)) if near else None
-
-
 def snapped(
     value: float, within: SizeRange, *, fine: bool = False, magnets: Sequence[float] = (), reach: float = 0.0
 ) -> float:
-    """A value on a magnet, or else on a step, within its range; finely there are no magnets."""
-    pulled = None if fine else nearest_magnet(value, magnets, reach)
+    """A value on the nearest magnet in reach, or else on a step, within its range; finely there are no magnets.
+
+    >>> room = SizeRange(0.0, 10.0, 0.5)
+    >>> snapped(4.2, room, magnets=[0.0, 5.0], reach=1.0), snapped(4.2, room, fine=True, magnets=[5.0], reach=1.0)
+    (5.0, 4.2)
+    """
+    near = [] if fine else [each for each in magnets if abs(each - value) <= reach]
+    pulled = min(near, key=lambda each: abs(each - value), default=None)
     if pulled is not None and within.least <= pulled <= within.most:
         return pulled
     return within.nearest_step(value, fine=fine)
+
+
+def place_of(name: str, at: Any) -> complex:
+    """A place as the page counts it, ``[x, y]``, as a complex number; it is what a request says under a name.
+
+    Raises
+    ------
+    DesignError : it is none
+
+    >>> place_of("guess", [3.0, -4.0])
+    (3+4j)
+    """
+    try:
+        x, y = (float(coordinate) for coordinate in at)
+    except (TypeError, ValueError, OverflowError):
+        x = y = math.nan
+    if not (abs(x) <= MAX_DISTANCE and abs(y) <= MAX_DISTANCE):
+        raise DesignError(name, f"{at!r}"[:40], say("two numbers, x and y in mm of the view"))
+    return complex(x, -y)
 
 
 def phi_axis(phi: float, screen: str = "x") -> HandleAxis:
@@ -320,23 +342,3 @@ def nearest_station(places: ArrayLike, to: complex) -> int:
     2
     """
     return int(np.nanargmin(np.abs(np.asarray(places) - to)))
-
-
-def in_degrees(phi: float) -> float:
-    """A cam angle of the exact side as the page has it.
-
-    >>> in_degrees(math.pi / 3)
-    60.0
-    """
-    return round(math.degrees(phi), 6)
-
-
-def point_on_curve(view: str, places: str, solution: Solution, state: HandleState) -> Handle:
-    """The handle of the cam angle on the curve of a view.
-
-    places : the name of the ends at the stations, in the construction of the pressure angle
-    """
-    stations = solution.chain.board.stations
-    ends = np.asarray(solution.chain["pressure_angle"].first(places))
-    at = over_stations(stations, math.radians(state.phi), ends)
-    return angle_handle(view, "D", say("Point D of the curve"), at, state, angle_at(stations.phi, ends))

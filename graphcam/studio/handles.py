@@ -8,13 +8,8 @@ from graphcam.constructions.views import ACCELERATION, ANGLE, COMBINED, DISPLACE
 from graphcam.errors import DesignError, GraphcamError
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.studio import (
-    handles_arcs as arcs,
-    handles_diagrams as diagrams,
-    handles_profile as profile,
-    handles_region as region,
-)
-from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis
+from graphcam.studio import handles_diagrams as diagrams, handles_profile as profile, handles_region as region
+from graphcam.studio.handle import Changes, Handle, phi_axis, place_of
 from graphcam.words import Tell, say
 
 MECHANISM_VIEW = "mechanism"
@@ -22,57 +17,35 @@ MECHANISM_VIEW = "mechanism"
 WAY_HALVINGS = 7
 """Halvings of the way of a hand that goes where there is no design."""
 Solved = TypeVar("Solved")
-MAX_DISTANCE = 1e6
-"""No place on paper is farther away [mm]."""
 
 
-def handles_of(
-    solution: AnySolution, views: Sequence[str], tell: Tell, phi: float = 0.0, station: int | None = None
-) -> list[dict[str, Any]]:
+def handles_of(solution: AnySolution, views: Sequence[str], tell: Tell, phi: float = 0.0) -> list[dict[str, Any]]:
     """The handles of some views as the page reads them: see :class:`~graphcam.studio.handle.Handle`.
 
-    phi : cam angle [degrees];  station : that the velocity plan shows
-    tell : says captions in the language of the page
+    phi : cam angle [degrees];  tell : says captions in the language of the page
 
     >>> import graphcam as gc
     >>> [handle["id"] for handle in handles_of(gc.solve(gc.builtin_task()), ["combined"], str)]
     ['combined/A', 'combined/tangent rise', 'combined/D']
     """
-    state = HandleState(phi % 360.0, station)
-    found = (handle for view in views for handle in _of_view(solution, view, state))
+    found = (handle for view in views for handle in _of_view(solution, view, phi % 360.0))
     return [handle.plain(tell) for handle in found if math.isfinite(abs(handle.at))]
 
 
-def dragged(solution: AnySolution, drag: Mapping[str, Any], phi: float = 0.0, station: int | None = None) -> Changes:
-    """What the sizes become, by their paths, when a handle is dragged: ``{"handle", "to": [x, y], "fine"}``.
-
-    solution : of the task at which the hand took hold
-    phi, station : as they were then
-    returns : values on a step or a magnet, within their ranges; "phi" or "station" for what is no size
-
-    Raises
-    ------
-    DesignError : there is no such handle, or no such place
-
-    >>> import graphcam as gc
-    >>> dragged(gc.solve(gc.builtin_task()), {"handle": "combined/A", "to": [0.0, 90.0]})
-    {'follower.offset': 0.0, 'cam.prime_radius': 54.0}
-    """
-    handle, to = _handle(solution, drag, HandleState(phi % 360.0, station)), _place(drag.get("to"))
-    return handle.drag(to, bool(drag.get("fine", False)))
-
-
-def dragged_within(
+def dragged(
     solution: AnySolution,
     drag: Mapping[str, Any],
     solve: Callable[[Changes], Solved],
     phi: float = 0.0,
-    station: int | None = None,
 ) -> tuple[Changes, Solved]:
-    """The dragged sizes as far as there is a design: a hand that goes on is followed to the last one on its way.
+    """The sizes, by their paths, to which a handle is dragged: ``{"handle", "to": [x, y], "fine"}``.
 
+    A hand that goes on to where there is no design is followed to the last one on its way.
+
+    solution : of the task at which the hand took hold;  phi : cam angle [degrees], as it was then
     solve : the solution with some changes, or a GraphcamError
-    returns : the changes, and the solution with them
+    returns : the changes, on a step or a magnet, within their ranges, "phi" or "station" for what is no size; and the
+        solution with them
 
     Raises
     ------
@@ -83,10 +56,10 @@ def dragged_within(
     ...     if changes.get("cam.prime_radius", 0.0) > 50.0:
     ...         raise DesignError("prime radius", changes["cam.prime_radius"], "at most 50 mm")
     ...     return "drawn"
-    >>> dragged_within(gc.solve(gc.builtin_task()), {"handle": "profile/r0", "to": [0, 120]}, no_larger)
+    >>> dragged(gc.solve(gc.builtin_task()), {"handle": "profile/r0", "to": [0, 120]}, no_larger)
     ({'cam.prime_radius': 50.0}, 'drawn')
     """
-    handle, to = _handle(solution, drag, HandleState(phi % 360.0, station)), _place(drag.get("to"))
+    handle, to = _handle(solution, drag, phi % 360.0), place_of("drag.to", drag.get("to"))
     fine = bool(drag.get("fine", False))
     found: tuple[Changes, Solved] | None = None
     reached, beyond = 0.0, 2.0
@@ -102,39 +75,28 @@ def dragged_within(
     return ({}, solve({})) if found is None else found
 
 
-def _handle(solution: AnySolution, drag: Mapping[str, Any], state: HandleState) -> Handle:
+def _handle(solution: AnySolution, drag: Mapping[str, Any], phi: float) -> Handle:
     name = str(drag.get("handle"))
-    for handle in _of_view(solution, name.split("/")[0], state):
+    for handle in _of_view(solution, name.split("/")[0], phi):
         if handle.id == name and math.isfinite(abs(handle.at)):
             return handle
     raise DesignError("drag.handle", name[:40], say("one of the view's handles"))
 
 
-def _place(to: Any) -> complex:
-    """A place of the page as a complex number, y upwards."""
-    try:
-        x, y = (float(coordinate) for coordinate in to)
-    except (TypeError, ValueError):
-        x = y = math.nan
-    if not (abs(x) <= MAX_DISTANCE and abs(y) <= MAX_DISTANCE):
-        raise DesignError("drag.to", f"{to!r}"[:40], say("two numbers, x and y in mm of the view"))
-    return complex(x, -y)
-
-
-def _of_view(solution: AnySolution, view: str, state: HandleState) -> Iterator[Handle]:
+def _of_view(solution: AnySolution, view: str, phi: float) -> Iterator[Handle]:
     """The handles of a view, each made when it is come to."""
     if view == MECHANISM_VIEW:
         # The page knows how far it was turned.
-        yield Handle(view, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(state.phi),), lambda to, fine: {})
+        yield Handle(view, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(phi),), lambda to, fine: {})
     elif isinstance(solution, ArcsSolution):
-        yield from arcs.of_view(solution, view, state)
+        yield from profile.of_arcs(solution, view, phi)
     elif view in (ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name):
-        yield from diagrams.of_diagram(solution, view, state)
+        yield from diagrams.of_diagram(solution, view, phi)
     elif view in VIEW_HANDLES and VIEW_HANDLES[view][0] in solution.chain.names:
-        yield from VIEW_HANDLES[view][1](solution, state)
+        yield from VIEW_HANDLES[view][1](solution, phi)
 
 
-VIEW_HANDLES: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Handle]]]] = {
+VIEW_HANDLES: dict[str, tuple[str, Callable[[Solution, float], Iterator[Handle]]]] = {
     ANGLE.name: ("angle_diagram", diagrams.of_angles),
     COMBINED.name: ("minimum_radius", region.of_combined),
     REGION.name: ("minimum_radius", region.of_positions),

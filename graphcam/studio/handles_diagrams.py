@@ -1,11 +1,10 @@
 """Handles of the diagrams over the cam angle: borders of phases, ordinate, poles, points of the motion, cam angle."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
 from pathlib import PurePath
-from typing import NamedTuple
 
 import numpy as np
 
@@ -14,16 +13,8 @@ from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELO
 from graphcam.drafting.euclid import UP
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import (
-    TURN_RANGE,
-    Handle,
-    HandleAxis,
-    HandleState,
-    angle_handle,
-    axis_of,
-    mark_handle,
-    over_stations,
-)
+from graphcam.studio.form_fields import lift_unit
+from graphcam.studio.handle import Handle, HandleAxis, axis_of, mark_handle, over_stations, phi_axis
 from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, lift_size, round_up, step_for
 from graphcam.words import say
 
@@ -39,7 +30,7 @@ EDITED = "-edited"
 """The file of an edited table is called so."""
 
 
-def of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Handle]:
+def of_diagram(solution: Solution, view: str, phi: float) -> Iterator[Handle]:
     """The handles of acceleration, velocity or displacement."""
     yield from borders(solution, view)
     if view == DISPLACEMENT.name:
@@ -48,13 +39,13 @@ def of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Ha
         yield from rows(solution)
     else:
         yield from poles_and_ordinate(solution, view)
-    yield from cursor(solution, view, state)
+    yield from cursor(solution, view, phi)
 
 
-def of_angles(solution: Solution, state: HandleState) -> Iterator[Handle]:
+def of_angles(solution: Solution, phi: float) -> Iterator[Handle]:
     """The handles of the diagram of the pressure angle."""
     yield from limits(solution)
-    yield from cursor(solution, ANGLE.name, state)
+    yield from cursor(solution, ANGLE.name, phi)
 
 
 def _degrees(solution: Solution | ArcsSolution) -> float:
@@ -74,15 +65,11 @@ def borders(solution: Solution, view: str) -> Iterator[Handle]:
         total, title = first.angle + second.angle, phase_title(solution.cam.motion, k)
         room, name = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0), say("Angle of the {phase}", phase=title)
         axis = HandleAxis(path, name, "°", first.angle, room, "x", {"sum": {"path": other, "total": total}})
-
-        def mark(angle: float, start: float = ends[k]) -> complex:
-            return complex(start + angle / degrees)
-
         yield mark_handle(
             view,
             f"border {k + 1}",
             say("End of the {phase}", phase=title),
-            mark,
+            lambda angle, start=ends[k]: complex(start + angle / degrees),
             [axis],
             magnets=np.arange(MAGNET_STEP, total, MAGNET_STEP).tolist(),
             reach=MAGNET_REACH / degrees,
@@ -96,7 +83,7 @@ def lift(solution: Solution) -> Iterator[Handle]:
     span, s = solution.chain.spans[_first_rise(solution)], solution.chain["integration"].first("s")
     x, start = float(solution.chain["acceleration"].first("axis")[span.stop - 1].real), float(s[span.start])
     per_size = (float(s[span.stop - 1]) - start) / size.value
-    unit = "°" if solution.task.follower.column == "s_deg" else "mm"
+    unit = lift_unit(solution.task.follower.column)
     axis = HandleAxis(size.path, say("Lift h"), unit, size.value, size.range, "y", {"with": size.shares})
     yield mark_handle(DISPLACEMENT.name, "lift", axis.name, lambda h: x + UP * (start + h * per_size), [axis])
 
@@ -132,22 +119,22 @@ def limits(solution: Solution) -> Iterator[Handle]:
         axis = axis_of(solution, path, "y", sign=side)
         x = math.degrees(motion.starts[[phase.kind for phase in motion.phases].index(way)]) / _degrees(solution)
         is_over = abs(math.degrees(float(angles.value(f"max_{way}")))) > axis.value + 0.005
+        start, up = complex(x), side * UP / per_mm
+        yield mark_handle(
+            ANGLE.name,
+            f"limit {way}",
+            axis.name,
+            lambda angle, start=start, up=up: start + up * angle,
+            [axis],
+            limit=is_over,
+        )
 
-        def mark(angle: float, x: float = x, side: int = side) -> complex:
-            return x + side * UP * angle / per_mm
 
-        yield mark_handle(ANGLE.name, f"limit {way}", axis.name, mark, [axis], limit=is_over)
-
-
-def cursor(solution: Solution | ArcsSolution, view: str, state: HandleState) -> Iterator[Handle]:
+def cursor(solution: Solution | ArcsSolution, view: str, phi: float) -> Iterator[Handle]:
     """The cam angle, on the curve."""
-    degrees = _degrees(solution)
-    at = complex(state.phi / degrees, curve_height(solution, view, math.radians(state.phi)))
-    yield angle_handle(view, "phi", say("Cam angle φ"), at, state, partial(_angle_under, degrees), "x")
-
-
-def _angle_under(degrees: float, to: complex, fine: bool) -> float:
-    return TURN_RANGE.nearest_step(to.real * degrees, fine=fine)
+    degrees, height = _degrees(solution), curve_height(solution, view, math.radians(phi))
+    axis = phi_axis(phi)
+    yield mark_handle(view, "phi", axis.name, lambda angle: complex(angle / degrees, height), [axis])
 
 
 def curve_height(solution: Solution | ArcsSolution, view: str, phi: float) -> float:
@@ -168,21 +155,11 @@ def curve_height(solution: Solution | ArcsSolution, view: str, phi: float) -> fl
 # --- points through which a motion goes ------------------------------------------------------------------------------
 
 
-class _Paper(NamedTuple):
-    """What a millimetre of the diagram stands for, degrees and displacement, and the displacement at its axis."""
-
-    degrees: float
-    lift: float
-    axis: float
-
-    def place(self, angle: float, lift: float) -> complex:
-        """Where a cam angle [degrees] and a displacement are."""
-        return complex(angle / self.degrees, (lift - self.axis) / self.lift)
-
-
-def _paper(solution: Solution, lifts: Sequence[float]) -> _Paper:
+def _places(solution: Solution, lifts: Sequence[float]) -> Callable[[float, float], complex]:
+    """Where a cam angle [degrees] and a displacement are in the diagram, whose axis is at the least one."""
+    degrees, axis = _degrees(solution), min(lifts)
     scale = solution.chain["integration"].readings["s"].per_mm / solution.task.motion.lift_unit
-    return _Paper(_degrees(solution), scale, min(lifts))
+    return lambda angle, lift: complex(angle / degrees, (lift - axis) / scale)
 
 
 def _lifts(values: Sequence[float]) -> SizeRange:
@@ -196,11 +173,11 @@ def conditions(solution: Solution) -> Iterator[Handle]:
     Where a part begins at the height at which the one before it has ended, both go together.
     """
     parts = solution.task.motion.parts or ()
-    unit = solution.task.follower.column.removeprefix("s_").replace("deg", "°")
+    unit = lift_unit(solution.task.follower.column)
     given = [point.s for part in parts for point in part.points if point.s is not None]
     if not given:
         return
-    paper, lifts = _paper(solution, given), _lifts(given)
+    place, lifts = _places(solution, given), _lifts(given)
     for k, part in enumerate(parts):
         after = (k + 1) % len(parts)
         for j, point in enumerate(part.points):
@@ -218,7 +195,7 @@ def conditions(solution: Solution) -> Iterator[Handle]:
             rising = HandleAxis(f"{path}.s", say("Displacement s"), unit, point.s, lifts, "y", extra)
 
             def mark(*sizes: float, angle: float = point.angle) -> complex:
-                return paper.place(*sizes) if len(sizes) > 1 else paper.place(angle, *sizes)
+                return place(*sizes) if len(sizes) > 1 else place(angle, *sizes)
 
             name = say("Point of the motion at {angle:g}°", angle=point.angle)
             yield mark_handle(DISPLACEMENT.name, f"point {k}.{j}", name, mark, [*axes, rising])
@@ -232,11 +209,10 @@ def rows(solution: Solution) -> Iterator[Handle]:
     table = solution.task.motion.table
     if table is None or table.column not in ("s_mm", "s_deg") or solution.task.motion.symmetric:
         return
-    unit = "°" if table.column == "s_deg" else "mm"
     given, apart = table.rows, max(1, len(table.rows) // ROWS_BETWEEN)
     reach = 3 * apart // 2
     heights, file = [s for _, s in given], PurePath(table.file)
-    paper, lifts = _paper(solution, heights), _lifts(heights)
+    place, lifts = _places(solution, heights), _lifts(heights)
     edited = table.file if file.stem.endswith(EDITED) else f"{file.stem}{EDITED}{file.suffix}"
     cam_degree = 1.0 / (solution.task.motion.per_cam_degree or 1.0)
     for k in range(apart, len(given) - apart, apart):
@@ -252,6 +228,8 @@ def rows(solution: Solution) -> Iterator[Handle]:
             "with": {f"motion.table.rows[{j}][1]": share for j, share in shares.items()},
             "beyond": {f"motion.table.rows[{j}][1]": round(given[j][1] - start * shares[j], 4) for j in shares},
         }
-        axis = HandleAxis(f"motion.table.rows[{k}][1]", say("Displacement s"), unit, start, lifts, "y", extra)
-        name, mark = say("Row of the table at {angle:g}°", angle=angle), partial(paper.place, angle * cam_degree)
+        axis = HandleAxis(
+            f"motion.table.rows[{k}][1]", say("Displacement s"), lift_unit(table.column), start, lifts, "y", extra
+        )
+        name, mark = say("Row of the table at {angle:g}°", angle=angle), partial(place, angle * cam_degree)
         yield mark_handle(DISPLACEMENT.name, f"point {k}", name, mark, [axis])

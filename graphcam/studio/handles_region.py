@@ -1,8 +1,7 @@
 """Handles of the region and of what is drawn in it: cam centre, arm, tangents, a point of the curve, velocity plan."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -21,17 +20,14 @@ from graphcam.plane_vectors import dot
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
     MAGNET_REACH,
-    Changes,
     Handle,
     HandleAxis,
-    HandleState,
-    angle_at,
-    angle_handle,
     axis_of,
     mark_handle,
-    nearest_station,
     over_stations,
-    point_on_curve,
+    radius_handle,
+    station_handle,
+    turn_handle,
 )
 from graphcam.studio.size_ranges import (
     SizeRange,
@@ -52,67 +48,69 @@ EDGE_TOLERANCE = 1e-6
 CENTRE_NAME = say("Cam centre A")
 
 
-@dataclass(frozen=True, eq=False)
-class CentreOfRegion:
-    """The places where the hand may put the cam centre: two sizes, of which the second is the prime radius.
+def centre_handle(
+    solution: Solution,
+    view: str,
+    mark: Callable[[float, Any], Any],
+    lines: Iterable[tuple[Any, Any]],
+    first: HandleAxis,
+    firsts: SizeRange,
+    radii: Callable[[float], SizeRange],
+    places: Sequence[complex] = (),
+) -> Handle:
+    """The cam centre: the follower's place and the prime radius in one.
 
     mark : the cam centre for both sizes [mm of paper], also of an array of radii
-    touches, inwards : the lines that bound the region, (k,) each [mm of paper]
-    firsts : the range of the first size;  radii : that of the prime radius at a value of the first size
-    mu : mm to a millimetre of paper
+    lines : that bound the region: where they touch the curve, and inwards [mm of paper]
+    first, firsts : the axis of the place, and its range for the hand;  radii : that of the prime radius at a place
+    places : that draw the cam centre
     """
+    chain, mu = solution.chain, solution.chain["minimum_radius"].readings["prime_radius"].per_mm
+    touches, inwards = (np.concatenate([np.ravel(each) for each in of]) for of in zip(*lines, strict=True))
 
-    mark: Callable[[float, Any], Any]
-    touches: Points
-    inwards: Points
-    firsts: SizeRange
-    radii: Callable[[float], SizeRange]
-    mu: float
-
-    def inside(self, first: float, radii: Any) -> Any:
+    def inside(place: float, radius: Any) -> Any:
         """Whether all limits are kept there."""
-        centre = np.asarray(self.mark(first, radii))[..., None]
-        return (dot(self.inwards, centre - self.touches) >= -EDGE_TOLERANCE).all(axis=-1)
+        centre = np.asarray(mark(place, radius))[..., None]
+        return (dot(inwards, centre - touches) >= -EDGE_TOLERANCE).all(axis=-1)
 
-    def rooms(self, known: Sequence[float], wanted: float) -> tuple[SizeRange, Sequence[float]]:
-        """The range of the first size; if that is known that of the radius, and those near a wanted one just inside."""
+    def rooms(known: Sequence[float], wanted: float) -> tuple[SizeRange, Sequence[float]]:
+        """The range of the place; if that is known that of the radius, and those near a wanted one just inside."""
         if not known:
-            return self.firsts, ()
-        first, room = known[0], self.radii(known[0])
+            return firsts, ()
+        room = radii(known[0])
         step = room.step / 5
-        count = math.ceil(MAGNET_REACH * self.mu / step) + 1
+        count = math.ceil(MAGNET_REACH * mu / step) + 1
         tried = (step * (round(wanted / step) + np.arange(-count, count + 1))).round(9)
         tried = tried[(room.least <= tried) & (tried <= room.most)]
-        inside = self.inside(first, tried)
+        kept = inside(known[0], tried)
         # Where one is inside and its neighbour is not, the one inside.
-        return room, [float(tried[k + (not inside[k])]) for k in np.flatnonzero(inside[1:] != inside[:-1])]
+        return room, [float(tried[k + (not kept[k])]) for k in np.flatnonzero(kept[1:] != kept[:-1])]
+
+    axes = [first, axis_of(solution, "cam.prime_radius", "y", radii(chain.place), sign=-1)]
+    outside = not inside(chain.place, chain.prime_radius)
+    return mark_handle(view, "A", CENTRE_NAME, mark, axes, rooms=rooms, places=places, limit=outside)
 
 
-def of_combined(solution: Solution, state: HandleState) -> Iterator[Handle]:
+def of_combined(solution: Solution, phi: float) -> Iterator[Handle]:
     """Handles of a stem with an offset, or of a flat face; an arm has another drawing."""
     if "offset" in sizes_of(solution.task):
         yield cam_centre(solution)
         yield from tangents(solution)
-        yield point_on_curve(COMBINED.name, "ends", solution, state)
+        yield point_on_curve(COMBINED.name, "ends", solution, phi)
     elif not has_angles(solution.task):
         yield flat_centre(solution)
-        yield flat_point(solution, state)
+        yield flat_point(solution, phi)
 
 
 def cam_centre(solution: Solution) -> Handle:
-    """The cam centre of a translating follower: its offset and its prime radius in one."""
-    region, chain, room = solution.chain["minimum_radius"], solution.chain, ranges(solution)["cam.prime_radius"]
-    offset, radius, mu = chain.place, chain.prime_radius, region.readings["prime_radius"].per_mm
-    step, roller = step_for(lift_of(solution)), solution.task.follower.roller_radius or 0.0
-    most = max(room.most, radius)
-    widest = min(max(round_up(lift_of(solution)), abs(offset)), max(room.most, radius) - step)
-    lines = shown_boundaries(region)
-    touches, inwards = (
-        np.array([complex(each) for each in of]) for of in zip(*((b.touch, b.inward) for b in lines), strict=True)
-    )
+    """The cam centre of a translating follower, on the line of its offset."""
+    region, chain, most = solution.chain["minimum_radius"], solution.chain, ranges(solution)["cam.prime_radius"].most
+    mu, lift, most = region.readings["prime_radius"].per_mm, lift_of(solution), max(most, chain.prime_radius)
+    step, roller = step_for(lift), solution.task.follower.roller_radius or 0.0
+    widest = min(max(round_up(lift), abs(chain.place)), most - step)
 
     def mark(e: float, r0: Any) -> Any:
-        """The centre below the zero of s, on the line of the offset."""
+        """The centre below the zero of s."""
         return (-e - 1j * np.sqrt(np.maximum(np.square(r0) - e**2, 0.0))) / mu
 
     def radii(e: float) -> SizeRange:
@@ -122,34 +120,36 @@ def cam_centre(solution: Solution) -> Handle:
     named = (region.acts.get(name) for name in ("nearest", "foot on rise", "central"))
     places = [complex(np.ravel(each.first.shown)[0]) for each in named if each is not None]
     places = [place for place in places if np.isfinite(place) and abs(place.real) * mu <= widest]
+    lines = [(line.touch, line.inward) for line in shown_boundaries(region)]
     aside = SizeRange(-widest, widest, step)
-    free = CentreOfRegion(mark, touches, inwards, aside, radii, mu)
-    axes = [
-        axis_of(solution, "follower.offset", "x", aside, sign=-1),
-        axis_of(solution, "cam.prime_radius", "y", radii(offset), sign=-1),
-    ]
-    outside = not free.inside(offset, radius)
-    return mark_handle(COMBINED.name, "A", CENTRE_NAME, mark, axes, rooms=free.rooms, places=places, limit=outside)
+    axis = axis_of(solution, "follower.offset", "x", aside, sign=-1)
+    return centre_handle(solution, COMBINED.name, mark, lines, axis, aside, radii, places)
 
 
 # --- an arm ----------------------------------------------------------------------------------------------------------
 
 
-def of_positions(solution: Solution, state: HandleState) -> Iterator[Handle]:
+def point_on_curve(view: str, places: str, solution: Solution, phi: float) -> Handle:
+    """The handle of the cam angle on the curve of a view.
+
+    places : the name of the ends at the stations, in the construction of the pressure angle
+    """
+    stations, ends = solution.chain.board.stations, solution.chain["pressure_angle"].first(places)
+    at = over_stations(stations, math.radians(phi), ends)
+    return turn_handle(view, "D", say("Point D of the curve"), at, phi, ends, stations.phi)
+
+
+def of_positions(solution: Solution, phi: float) -> Iterator[Handle]:
     """Cam centre, end of the arm at rest, and a point of the curve of the tips."""
     if "arm" in sizes_of(solution.task):
         yield arm_centre(solution)
         yield arm_at_rest(solution)
-        yield point_on_curve(REGION.name, "tips", solution, state)
+        yield point_on_curve(REGION.name, "tips", solution, phi)
 
 
 def arm_centre(solution: Solution) -> Handle:
-    """The cam centre about the pivot of an arm: its centre distance and its prime radius in one."""
-    region, follower, chain = solution.chain["minimum_radius"], sizes_of(solution.task), solution.chain
-    names = [name.removeprefix("touch of ") for name in region.points if name.startswith("touch of ")]
-    touches, inwards = (
-        np.concatenate([np.ravel(region.first(f"{what} of {name}")) for name in names]) for what in ("touch", "inward")
-    )
+    """The cam centre about the pivot of an arm, at the centre distance."""
+    region, follower = solution.chain["minimum_radius"], sizes_of(solution.task)
     arm, step, mu = follower["arm"], step_for(lift_of(solution)), region.readings["prime_radius"].per_mm
     pivot, end = np.asarray(0j), np.asarray(-arm + 0j)
 
@@ -162,13 +162,11 @@ def arm_centre(solution: Solution) -> Handle:
         """The centre below the line of the arm at rest, whose pivot is the origin."""
         return circle_crossing(pivot, c, end, r0, flat=True) / mu
 
-    free = CentreOfRegion(mark, touches, inwards, SizeRange(5 * step, round_up(2.5 * arm), step), radii, mu)
-    axes = [
-        axis_of(solution, "follower.distance", "x", third_side(arm, chain.prime_radius, step), sign=-1),
-        axis_of(solution, "cam.prime_radius", "y", radii(chain.place), sign=-1),
-    ]
-    outside = not free.inside(chain.place, chain.prime_radius)
-    return mark_handle(REGION.name, "A", CENTRE_NAME, mark, axes, rooms=free.rooms, limit=outside)
+    names = [name.removeprefix("touch of ") for name in region.points if name.startswith("touch of ")]
+    lines = [(region.first(f"touch of {name}"), region.first(f"inward of {name}")) for name in names]
+    axis = axis_of(solution, "follower.distance", "x", third_side(arm, solution.chain.prime_radius, step), sign=-1)
+    firsts = SizeRange(5 * step, round_up(2.5 * arm), step)
+    return centre_handle(solution, REGION.name, mark, lines, axis, firsts, radii)
 
 
 def arm_at_rest(solution: Solution) -> Handle:
@@ -222,42 +220,34 @@ def tangent_at(solution: Solution, name: str, level: float, angle: float) -> com
 
 def flat_centre(solution: Solution) -> Handle:
     """The cam centre under a flat face: the prime radius below the axis of a."""
-    region, axis = solution.chain["minimum_radius"], axis_of(solution, "cam.prime_radius", "y", sign=-1)
-    mu, least, step = region.readings["prime_radius"].per_mm, float(region.value("prime_radius")), axis.range.step
-    found, outside = math.ceil(5 * least / step - 1e-9) * step / 5, axis.value < least - EDGE_TOLERANCE * mu
-    return mark_handle(
-        COMBINED.name, "A", CENTRE_NAME, lambda r0: -UP * r0 / mu, [axis], magnets=[round(found, 9)], limit=outside
-    )
+    region = solution.chain["minimum_radius"]
+    mu, least = region.readings["prime_radius"].per_mm, float(region.value("prime_radius"))
+    return radius_handle(solution, COMBINED.name, "A", CENTRE_NAME, mu, least)
 
 
-def flat_point(solution: Solution, state: HandleState) -> Handle:
+def flat_point(solution: Solution, phi: float) -> Handle:
     """The point of the curve of s over a at the cam angle."""
     integrated, stations = solution.chain["integration"], solution.chain.board.stations
     times = integrated.readings["a"].per_mm / integrated.readings["s"].per_mm
     after, before = (integrated.first("s") * UP + times * integrated.first(name) for name in ("a", "a_before"))
-    place = over_stations(stations, math.radians(state.phi), after, before)
-    resting = over_stations(stations, math.radians(state.phi), integrated.first("a"), rests=True) == 0
-    at = complex(0.0, place.imag) if resting else place
-    angle = angle_at([*stations.phi, *stations.phi], [*after, *before])
-    return angle_handle(COMBINED.name, "D", say("Point of the curve"), at, state, angle)
+    at = over_stations(stations, math.radians(phi), after, before)
+    if over_stations(stations, math.radians(phi), integrated.first("a"), rests=True) == 0:
+        at = complex(0.0, at.imag)
+    angles, ends = [*stations.phi, *stations.phi], [*after, *before]
+    return turn_handle(COMBINED.name, "D", say("Point of the curve"), at, phi, ends, angles)
 
 
 # --- the velocity plan ------------------------------------------------------------------------------------------------
 
 
-def station(solution: Solution, state: HandleState) -> Iterator[Handle]:
+def station(solution: Solution, phi: float) -> Iterator[Handle]:
     """The end D of the mechanism's triangle, which goes to that of the nearest station with a plan."""
     measured = solution.chain["pressure_angle"]
     shown, possible = shown_station(measured), np.flatnonzero(moving_up(measured))
-    places = _ends(solution, shown)
-
-    def drag(to: complex, fine: bool) -> Changes:
-        return {"station": int(possible[nearest_station(places[possible], to)])}
-
-    name = say("Station of the velocity plan")
+    places, name = _ends(solution, shown), say("Station of the velocity plan")
     room = SizeRange(float(possible[0]), float(possible[-1]), 1.0)
     axis = HandleAxis("station", name, "", shown, room, "x", {"fine": 1.0, "coarse": 1.0})
-    yield Handle(PLAN.name, "station", name, complex(places[shown]), "xy", (axis,), drag)
+    yield station_handle(PLAN.name, "station", name, places[shown].item(), axis, places[possible], possible.tolist())
 
 
 def _ends(solution: Solution, shown: int) -> Points:

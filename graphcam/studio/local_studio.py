@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -15,14 +15,14 @@ from graphcam.showing import higher_function
 from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS
 from graphcam.solving.solve import solve
 from graphcam.studio.address import StudioPlace, address_of
-from graphcam.studio.engine import answer
+from graphcam.studio.engine import answer, error_data
 from graphcam.studio.server import StudioServer
 from graphcam.studio.studio_page import page
+from graphcam.studio.task_paths import table_in
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
-from graphcam.studio.views_request import flag, task_data, task_in
+from graphcam.studio.views_request import TaskRequest, read_request, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
-from graphcam.words import message
 
 TABLE_FILE = "measured.csv"
 """What the file of a measured table is called, for the page can name no file."""
@@ -64,25 +64,25 @@ class WrittenFiles:
         from graphcam.report.output_folder import SOLUTION_FILE
 
         try:
-            kind, task = _kind(request), self._task(request)
+            kind = request.get("kind")
+            if not isinstance(kind, str) or kind not in FILES_BY_CHOICE:
+                raise DesignError("kind", kind, *choice_limit(kind, FILES_BY_CHOICE))
+            task = self._task(request)
             folder = self.folder / kind if kind == NOTEBOOK_CHOICE else self.folder
-            if (others := self._others(folder)) and not flag(request, "replace"):
+            if (others := self._others(folder)) and request.get("replace") is not True:
                 return {"others": others, "folder": str(folder)}
             names = self._written(kind, task, folder)
             written = {*names, SOLUTION_FILE}
             self.own |= {path: digest(path) for path in _files_in(folder) if path.name in written}
         except GraphcamError as error:
-            tell = language(self.language).text
-            said = {"message": tell(message(error.fault)), "remedy": tell(message(error.advice))}
-            return {"error": {"field": "", **said}}
+            return {"error": {"field": "", **error_data(error, language(self.language))}}
         except OSError as error:
             return {"error": {"field": "", "message": str(error), "remedy": ""}}
         return {"files": names, "folder": str(folder)}
 
     def _task(self, request: Mapping[str, Any]) -> Task | ArcsTask:
-        data = task_data(request)
-        drawing = data.get("drawing")
-        said = drawing.get("language") if isinstance(drawing, dict) else None
+        data = read_request(TaskRequest, request).task
+        said = table_in(data, "drawing").get("language")
         task = task_in(data, self.language if said is None else said)
         if isinstance(task, ArcsTask) or task.motion.table is None:
             return task
@@ -99,21 +99,14 @@ class WrittenFiles:
         part = PART_CHOICE in kinds
         if part and kind != PART_CHOICE:
             part = _has_part(solution)
-        wanted = _files(kinds if part else kinds - {PART_CHOICE})
-        names = solution.write(folder, wanted, working_drawing=part)
+        files = (file for each in (kinds if part else kinds - {PART_CHOICE}) for file in FILES_BY_CHOICE[each])
+        names = solution.write(folder, list(dict.fromkeys(files)), working_drawing=part)
         self.kinds = kinds
         return [name for name in names.values() if name]
 
 
 def _files_in(folder: Path) -> list[Path]:
     return sorted(path for path in folder.iterdir() if path.is_file()) if folder.is_dir() else []
-
-
-def _kind(request: Mapping[str, Any]) -> str:
-    kind = request.get("kind")
-    if not isinstance(kind, str) or kind not in FILES_BY_CHOICE:
-        raise DesignError("kind", kind, *choice_limit(kind, FILES_BY_CHOICE))
-    return kind
 
 
 def _has_part(solution: Any) -> bool:
@@ -125,10 +118,6 @@ def _has_part(solution: Any) -> bool:
     except DesignError:
         return False
     return True
-
-
-def _files(kinds: Iterable[str]) -> list[str]:
-    return list(dict.fromkeys(file for kind in kinds for file in FILES_BY_CHOICE[kind]))
 
 
 WRITTEN_KINDS = "sheet", "note", NOTEBOOK_CHOICE, PART_CHOICE
@@ -144,7 +133,7 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
     language : of the page
 
     >>> with local_studio(Path("out")) as server:
-    ...     b"<title>" in server.page
+    ...     "<title>" in server.page
     True
     """
     builtin = built_in_tasks()

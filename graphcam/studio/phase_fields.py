@@ -9,7 +9,7 @@ from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.given.laws import DECLARED_LAWS, LAWS
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, USUAL_BLENDS
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import DEGREE_SIGN, MOTION, PHASE_NAMES, Field, FieldMaker
+from graphcam.studio.form_fields import DEGREE_SIGN, MOTION, PHASE_NAMES, Field, FieldMaker, lift_unit
 from graphcam.studio.size_ranges import MAX_PHASES, MIN_PHASE_ANGLE, SizeRange, round_up, step_for
 from graphcam.words import Caption, say, say_in
 
@@ -60,10 +60,9 @@ def with_dwell(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
     >>> [(phase["kind"], phase["angle"]) for phase in with_dwell(turn, 0)]
     [('rise', 51), ('dwell', 50), ('return', 259)]
     """
-    angles, beside = _parts(phases, k, 2), phases[(k + 1) % len(phases)]
-    if angles is None or "dwell" in (phases[k]["kind"], beside["kind"]):
+    if "dwell" in (phases[k]["kind"], phases[(k + 1) % len(phases)]["kind"]):
         return None
-    return [*phases[:k], phases[k] | {"angle": angles[0]}, {"kind": "dwell", "angle": angles[1]}, *phases[k + 1 :]]
+    return _divided(phases, k, [phases[k], {"kind": "dwell"}])
 
 
 def with_step(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
@@ -82,20 +81,22 @@ def with_step(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
     else:
         half = phase | {"lift": phase["lift"] / 2}
         new = [half, {"kind": "dwell"}, half]
-    if (angles := _parts(phases, k, len(new))) is None:
-        return None
-    divided = [each | {"angle": angle} for each, angle in zip(new, angles, strict=True)]
-    return [*phases[:k], *divided, *phases[k + 1 :]]
+    return _divided(phases, k, new)
 
 
-def _parts(phases: Sequence[PhaseData], k: int, count: int) -> list[float] | None:
-    """The angle of a phase in parts of whole degrees but one; None if these, or so many phases, are too many."""
-    angle = phases[k]["angle"]
+def _divided(phases: Sequence[PhaseData], k: int, new: PhaseList) -> PhaseList | None:
+    """The phases with others in place of one, whose angle these take in whole degrees but one.
+
+    It is None where there are too many of them, or too few degrees.
+    """
+    angle, count = phases[k]["angle"], len(new)
     part = angle // count
     if part < MIN_PHASE_ANGLE or len(phases) + count - 1 > MAX_PHASES:
         return None
     # The first takes what is left; one degree more goes to each of the next while there are some.
-    return [angle - (count - 1) * part, *[part] * (count - 1)]
+    angles = [angle - (count - 1) * part, *[part] * (count - 1)]
+    divided = [each | {"angle": angle} for each, angle in zip(new, angles, strict=True)]
+    return [*phases[:k], *divided, *phases[k + 1 :]]
 
 
 def phases_field(make: FieldMaker, solution: Solution) -> Field:
@@ -107,7 +108,7 @@ def phases_field(make: FieldMaker, solution: Solution) -> Field:
             **phase,
             "name": tell(KIND_NAMES[phase["kind"]]),
             "symbol": tell(phase_symbol(solution.cam.motion, k)),
-            "fields": list(_phase_fields(make, phases, k, lift_unit(make, solution))),
+            "fields": list(_phase_fields(make, phases, k, lift_unit(solution.task.follower.column))),
             "edits": {
                 "remove": phases_without(phases, k),
                 "dwell": with_dwell(phases, k),
@@ -124,17 +125,17 @@ def _phase_fields(make: FieldMaker, phases: PhaseList, k: int, unit: str) -> Ite
     """The fields of a phase: its angle goes to a neighbour, and with its lift go those of the other sense."""
     phase, path, tell = phases[k], f"motion.phases[{k}]", make.tell
 
-    def number(key: str, name: Caption, at: str, value: float, room: SizeRange, **more: Any) -> Field:
+    def number(key: str, name: Caption, at: str, value: float, room: SizeRange, unit: str = "", **more: Any) -> Field:
         """A number of the phase."""
-        said = {"path": f"{path}.{at}", "key": f"phase-{key}", "name": tell(name), "unit": "", "kind": "number"}
-        return {**said, "value": value, **room.widened_to(value).plain(), **more}
+        room = room.widened_to(value)
+        return make.field(f"{path}.{at}", "number", name, value, unit, key=f"phase-{key}", **room.plain(), **more)
 
     if len(phases) > 1:
         other = k + 1 if k < len(phases) - 1 else k - 1
         total = phase["angle"] + phases[other]["angle"]
         rest = {"path": f"motion.phases[{other}].angle", "total": total}
         room = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0)
-        yield number("angle_of_phase", PHASE_NAMES["angle"], "angle", phase["angle"], room, unit=DEGREE_SIGN, sum=rest)
+        yield number("angle_of_phase", PHASE_NAMES["angle"], "angle", phase["angle"], room, DEGREE_SIGN, sum=rest)
     if phase["kind"] == "dwell":
         return
     lifts = {f"motion.phases[{j}].lift": each["lift"] for j, each in enumerate(phases) if _opposed(each, phase)}
@@ -143,10 +144,9 @@ def _phase_fields(make: FieldMaker, phases: PhaseList, k: int, unit: str) -> Ite
     beyond = {at: share * same for at, share in shares.items() if same}
     step = step_for(max(each.get("lift", 0.0) for each in phases))
     room, gone = SizeRange(step, round_up(1.6 * phase["lift"]), step), {"with": shares, "beyond": beyond}
-    yield number("lift", PHASE_NAMES["lift"], "lift", phase["lift"], room, unit=unit, **gone)
+    yield number("lift", PHASE_NAMES["lift"], "lift", phase["lift"], room, unit, **gone)
     laws = [{"value": law, "name": tell(LAW_TITLES[law]), "changes": _with_law(path, phase, law)} for law in PHASE_LAWS]
-    law = make.choice(f"{path}.law", PHASE_NAMES["law"], ())
-    yield law | {"key": "phase-law", "value": phase["law"], "choices": laws}
+    yield make.field(f"{path}.law", "choice", PHASE_NAMES["law"], phase["law"], key="phase-law", choices=laws)
     if phase["law"] in RATIO_LAWS:
         yield number("ratio", PHASE_NAMES["ratio"], "ratio", phase.get("ratio", 1.0), RATIO_RANGE)
     if phase["law"] == CONSTANT_VELOCITY:
@@ -165,8 +165,3 @@ def _with_law(path: str, phase: PhaseData, law: str) -> dict[str, Any]:
     """The changes that give a phase another law, without the ratio or the blends that it lacks."""
     lacks = {"ratio": law not in RATIO_LAWS, "blends": law != CONSTANT_VELOCITY}
     return {f"{path}.law": law, **{f"{path}.{key}": None for key, gone in lacks.items() if gone and key in phase}}
-
-
-def lift_unit(make: FieldMaker, solution: Solution) -> str:
-    """The unit of the lifts in the language of the page."""
-    return DEGREE_SIGN if solution.task.follower.column == "s_deg" else make.unit("mm")

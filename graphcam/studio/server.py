@@ -22,7 +22,6 @@ import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass
 from email.message import Message
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler
@@ -76,92 +75,6 @@ class RefusedError(Exception):
         self.why = why
 
 
-def new_token() -> str:
-    """256 random bits, in letters that an address may hold.
-
-    >>> len(new_token()), new_token() != new_token()
-    (43, True)
-    """
-    return secrets.token_urlsafe(TOKEN_BYTES)
-
-
-@dataclass(frozen=True)
-class Gatekeeper:
-    """What a request must say of itself.
-
-    port : the one at which the server listens
-    token : what the page must know
-    """
-
-    port: int
-    token: str
-
-    @property
-    def hosts(self) -> tuple[str, ...]:
-        """The names of the server."""
-        return f"127.0.0.1:{self.port}", f"localhost:{self.port}"
-
-    def check_place(self, headers: Message) -> None:
-        """Check that a request means this server, and that no foreign page has sent it.
-
-        Raises
-        ------
-        RefusedError : it names another host, or comes from another origin
-        """
-        if _single_header(headers, "Host") not in self.hosts:
-            raise RefusedError(HTTPStatus.FORBIDDEN, f"the host must be {self.hosts[0]}")
-        if "Origin" in headers and _single_header(headers, "Origin") not in [f"http://{host}" for host in self.hosts]:
-            raise RefusedError(HTTPStatus.FORBIDDEN, "no other origin may ask")
-
-    def check_token(self, headers: Message) -> None:
-        """Check that a request knows the token; it takes as long to refuse an almost right one as any other.
-
-        Raises
-        ------
-        RefusedError : it does not
-        """
-        given, right = _single_header(headers, "Authorization") or "", f"Bearer {self.token}"
-        if not hmac.compare_digest(given.encode("utf-8", "surrogateescape"), right.encode()):
-            raise RefusedError(HTTPStatus.UNAUTHORIZED, "open the address that 'graphcam studio' has printed")
-
-
-def body_length(headers: Message) -> int:
-    """The bytes of a request's body, as it says itself.
-
-    Raises
-    ------
-    RefusedError : it says no length, or one that is too large
-
-    >>> from email import message_from_string
-    >>> body_length(message_from_string("Content-Length: 12"))
-    12
-    """
-    if "Transfer-Encoding" in headers:
-        raise RefusedError(HTTPStatus.LENGTH_REQUIRED, "a body is sent with its Content-Length, not in chunks")
-    said = _single_header(headers, "Content-Length")
-    if said is None:
-        raise RefusedError(HTTPStatus.LENGTH_REQUIRED, "a body is sent with its Content-Length")
-    if not re.fullmatch(r"[0-9]{1,18}", said):
-        raise RefusedError(HTTPStatus.BAD_REQUEST, "Content-Length is a number")
-    if int(said) > MAX_BODY_BYTES:
-        raise RefusedError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"a body has at most {MAX_BODY_BYTES} bytes")
-    return int(said)
-
-
-def check_json(headers: Message) -> None:
-    """Check that a body is JSON_TYPE: a form of a foreign page, which needs no leave to be sent, cannot say that.
-
-    Raises
-    ------
-    RefusedError : it is something else
-
-    >>> from email import message_from_string
-    >>> check_json(message_from_string("Content-Type: application/json; charset=utf-8"))
-    """
-    if headers.get_content_type() != JSON_TYPE:
-        raise RefusedError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, f"the Content-Type must be {JSON_TYPE}")
-
-
 def _single_header(headers: Message, name: str) -> str | None:
     """The value of a header that stands there once."""
     values = headers.get_all(name, [])
@@ -174,6 +87,7 @@ class StudioServer(ThreadingTCPServer):
     page : HTML; its scripts stand in it;  others : the page in a language, by its name, None where there is none
     engine : answers requests of the page, one at a time
     write : writes the files of a kind, for a request {"kind", "task"}; one at a time too
+    port, hosts, token : at which it listens; its names; what the page must know
 
     >>> with StudioServer("<title>page</title>", lambda request: {}, lambda request: {}) as server:
     ...     server.address.startswith("http://127.0.0.1:"), "/#t=" in server.address
@@ -188,9 +102,9 @@ class StudioServer(ThreadingTCPServer):
         super().__init__(("127.0.0.1", 0), _Handler)
         # A new connection is looked for so often, see run.
         self.timeout = CHECK_INTERVAL
-        self.page = page.encode()
-        self.policy = PAGE_POLICY.format(scripts=script_names(page) or "'none'")
-        self.gatekeeper = Gatekeeper(self.server_address[1], new_token())
+        self.page, self.policy = page, PAGE_POLICY.format(scripts=script_names(page) or "'none'")
+        self.port, self.token = self.server_address[1], secrets.token_urlsafe(TOKEN_BYTES)
+        self.hosts = f"127.0.0.1:{self.port}", f"localhost:{self.port}"
         self.engine, self.write, self.others = engine, write, others
         self._engine_room, self._writing_room = ThreadPoolExecutor(1), ThreadPoolExecutor(1)
         # When each tab is given up; not before the first has shown itself.
@@ -199,7 +113,7 @@ class StudioServer(ThreadingTCPServer):
     @property
     def address(self) -> str:
         """The address to be opened, with the token where no server sees it and no referrer tells it."""
-        return f"http://{self.gatekeeper.hosts[0]}/#t={self.gatekeeper.token}"
+        return f"http://{self.hosts[0]}/#t={self.token}"
 
     def run(self) -> None:
         """Serve until the last tab is closed."""
@@ -292,35 +206,47 @@ class _Handler(BaseHTTPRequestHandler):
         self._refuse(RefusedError(HTTPStatus.FORBIDDEN, "no other origin may ask"))
 
     def _answer(self) -> None:
-        self.server.gatekeeper.check_place(self.headers)
-        if self.path == "/":
+        self._check_place()
+        page = self.server.page if self.path == "/" else self.server.others(self.path[1:])
+        if page is not None:
             self._check_method("GET")
-            self._send(HTTPStatus.OK, "text/html; charset=utf-8", self.server.page, self.server.policy)
-        elif (other := self.server.others(self.path[1:])) is not None:
-            self._check_method("GET")
-            self._send(HTTPStatus.OK, "text/html; charset=utf-8", other.encode(), self.server.policy)
+            self._send(HTTPStatus.OK, "text/html; charset=utf-8", page.encode(), self.server.policy)
         elif self.path in ("/engine", "/write"):
             self._check_method("POST")
             given = self._request()
             self._send_json(self.server.answer(given) if self.path == "/engine" else self.server.write_files(given))
         elif self.path in LIFE_SECONDS:
             self._check_method("POST")
-            self._send_json(self._keep_alive(LIFE_SECONDS[self.path]))
+            self._check_token()
+            self.server.keep_alive(LIFE_SECONDS[self.path], self._body())
+            self._send_json({})
         else:
             raise RefusedError(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _check_place(self) -> None:
+        """Check that a request means this server, and that no foreign page has sent it."""
+        hosts = self.server.hosts
+        if _single_header(self.headers, "Host") not in hosts:
+            raise RefusedError(HTTPStatus.FORBIDDEN, f"the host must be {hosts[0]}")
+        origins = [f"http://{host}" for host in hosts]
+        if "Origin" in self.headers and _single_header(self.headers, "Origin") not in origins:
+            raise RefusedError(HTTPStatus.FORBIDDEN, "no other origin may ask")
+
+    def _check_token(self) -> None:
+        """Check that a request knows the token; it takes as long to refuse an almost right one as any other."""
+        given, right = _single_header(self.headers, "Authorization") or "", f"Bearer {self.server.token}"
+        if not hmac.compare_digest(given.encode("utf-8", "surrogateescape"), right.encode()):
+            raise RefusedError(HTTPStatus.UNAUTHORIZED, "open the address that 'graphcam studio' has printed")
 
     def _check_method(self, method: str) -> None:
         if self.command != method:
             raise RefusedError(HTTPStatus.METHOD_NOT_ALLOWED, f"it must be {method}")
 
-    def _keep_alive(self, seconds: float) -> Mapping[str, Any]:
-        self.server.gatekeeper.check_token(self.headers)
-        self.server.keep_alive(seconds, self._body())
-        return {}
-
     def _request(self) -> Mapping[str, Any]:
-        self.server.gatekeeper.check_token(self.headers)
-        check_json(self.headers)
+        self._check_token()
+        # A form of a foreign page, which needs no leave to be sent, cannot say that.
+        if self.headers.get_content_type() != JSON_TYPE:
+            raise RefusedError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, f"the Content-Type must be {JSON_TYPE}")
         try:
             request = json.loads(self._body(), parse_constant=_no_number)
         except (ValueError, RecursionError):
@@ -329,8 +255,19 @@ class _Handler(BaseHTTPRequestHandler):
             raise RefusedError(HTTPStatus.BAD_REQUEST, "the body must be a table")
         return request
 
+    def _body_length(self) -> int:
+        """The bytes of a request's body, as it says itself."""
+        said = _single_header(self.headers, "Content-Length")
+        if said is None or "Transfer-Encoding" in self.headers:
+            raise RefusedError(HTTPStatus.LENGTH_REQUIRED, "a body is sent with its Content-Length, not in chunks")
+        if not re.fullmatch(r"[0-9]{1,18}", said):
+            raise RefusedError(HTTPStatus.BAD_REQUEST, "Content-Length is a number")
+        if int(said) > MAX_BODY_BYTES:
+            raise RefusedError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"a body has at most {MAX_BODY_BYTES} bytes")
+        return int(said)
+
     def _body(self) -> bytes:
-        length = body_length(self.headers)
+        length = self._body_length()
         try:
             body = self.rfile.read(length)
         except TimeoutError:

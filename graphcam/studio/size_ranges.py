@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import fields
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
@@ -146,7 +146,10 @@ def adopted(solution: AnySolution) -> dict[str, float | None]:
     17.0
     """
     if isinstance(solution, ArcsSolution):
-        return {}
+        # A may be left out only where the centre tells where the rise begins, and the other way round.
+        points = {"A": solution.task.arcs.C2, "C2": solution.task.arcs.A}
+        found = {name: getattr(solution.cam, name) for name, other in points.items() if other is not None}
+        return {f"arcs.{name}[{k}]": round(float(x), 6) for name, at in found.items() for k, x in enumerate(at)}
     chain, spring = solution.chain, solution.spring
     return {
         "follower.offset": chain.place,
@@ -174,7 +177,6 @@ def marked_range(mark: Fixed | About, value: float | None) -> SizeRange:
     return SizeRange(0.0 if mark.from_zero else most / 100, most, most / 100)
 
 
-@singledispatch
 def ruled_ranges(solution: AnySolution) -> dict[str, SizeRange]:
     """The ranges that follow from other sizes, by the paths of the numbers.
 
@@ -182,11 +184,8 @@ def ruled_ranges(solution: AnySolution) -> dict[str, SizeRange]:
     >>> list(ruled_ranges(gc.solve(gc.builtin_task("flat"))))
     ['cam.prime_radius', 'drawing.ordinate']
     """
-    raise TypeError(solution)
-
-
-@ruled_ranges.register
-def _(solution: Solution) -> dict[str, SizeRange]:
+    if isinstance(solution, ArcsSolution):
+        return _of_arcs(solution)
     most = round_up(1.25 * solution.chain.board.ordinate)
     step = min(1.0, step_for(most))
     found = {**_of_follower(solution), "drawing.ordinate": SizeRange(step, most, step)}
@@ -198,8 +197,7 @@ def _(solution: Solution) -> dict[str, SizeRange]:
     return found
 
 
-@ruled_ranges.register
-def _(solution: ArcsSolution) -> dict[str, SizeRange]:
+def _of_arcs(solution: ArcsSolution) -> dict[str, SizeRange]:
     outer = math.hypot(*solution.task.arcs.D)
     step, near = step_for(outer), POINT_MOVE_SHARE * outer
     found: dict[str, SizeRange] = {}
@@ -207,11 +205,10 @@ def _(solution: ArcsSolution) -> dict[str, SizeRange]:
         for axis, value in enumerate(map(float, getattr(solution.cam, name))):
             # It stays while the point is moved a little.
             middle = round(value / near) * near
-            room = SizeRange(
-                math.ceil((middle - near) / step) * step, math.floor((middle + near) / step) * step, step / 5
-            )
+            least, most = math.ceil((middle - near) / step) * step, math.floor((middle + near) / step) * step
             given = (getattr(solution.task.arcs, name) or {axis: None})[axis]
-            found[f"arcs.{name}[{axis}]"] = SizeRange(*(round(each, 9) for each in room)).widened_to(given)
+            room = SizeRange(round(least, 9), round(most, 9), round(step / 5, 9))
+            found[f"arcs.{name}[{axis}]"] = room.widened_to(given)
     found["arcs.rho1"] = SizeRange(step, multiple_below(outer, step), step)
     found["follower.roller_radius"] = SizeRange(0.0, multiple_below(outer, step), step)
     return found
@@ -243,13 +240,9 @@ def lift_size(task: Task) -> LiftSize | None:
     >>> lift_size(gc.builtin_task()).shares
     {'motion.phases[2].lift': 1.0}
     """
-    lifts = {
-        f"motion.phases[{k}].lift": phase.lift
-        for k, phase in enumerate(task.motion.phases or ())
-        if phase.kind != "dwell"
-    }
-    rises = (f"motion.phases[{k}].lift" for k, phase in enumerate(task.motion.phases or ()) if phase.kind == "rise")
-    if (path := next(rises, None)) is None:
+    moving = {f"motion.phases[{k}].lift": p for k, p in enumerate(task.motion.phases or ()) if p.kind != "dwell"}
+    lifts = {path: phase.lift for path, phase in moving.items()}
+    if (path := next((path for path, phase in moving.items() if phase.kind == "rise"), None)) is None:
         return None
     lift = lifts.pop(path)
     step = step_for(lift)

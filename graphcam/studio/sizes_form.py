@@ -9,8 +9,8 @@ from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import MOTION, Field, FieldMaker, must_agree
-from graphcam.studio.phase_fields import lift_unit, phases_field
+from graphcam.studio.form_fields import POINT_NAMES, Field, FieldMaker, coordinate_name, lift_unit, must_agree
+from graphcam.studio.phase_fields import phases_field
 from graphcam.studio.size_ranges import (
     SizeRange,
     adopted,
@@ -59,15 +59,12 @@ def form_of(solution: AnySolution, tell: Tell) -> list[Field]:
 
 def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
     """The points and radii of a cam of three arcs."""
-    arcs, cam = solution.task.arcs, solution.cam
-    for name in ("D", "G"):
-        yield from (make.coordinate(arcs, name, k, None) for k in (0, 1))
-    yield make.number("arcs.rho1") | {"first": dict.fromkeys(must_agree(arcs, "rho1"))}
-    for name in ("A", "C2"):
-        # A may be left out only where the centre tells where the rise begins, and the other way round.
-        open_ = getattr(arcs, "A" if name == "C2" else "C2") is not None
-        point = tuple(round(float(x), 6) for x in getattr(cam, name)) if open_ else None
-        yield from (make.coordinate(arcs, name, k, point) for k in (0, 1))
+    for name in ("D", "G", "rho1", "A", "C2"):
+        coordinates = [(f"arcs.{name}[{k}]", coordinate_name(name, k)) for k in (0, 1)] if name in POINT_NAMES else []
+        for path, called in coordinates or [(f"arcs.{name}", None)]:
+            field = make.number(path, called)
+            freed = dict.fromkeys(must_agree(solution.task.arcs, name))
+            yield field | {"first": freed | field.get("first", {})}
     yield make.number("arcs.dwell")
     yield make.number("follower.roller_radius")
     yield make.number("speed_rpm")
@@ -79,16 +76,8 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     if solution.task.motion.phases is not None:
         yield phases_field(make, solution)
     if lift := lift_size(solution.task):
-        path, value, room, shares = lift
-        named = {"path": path, "group": make.tell(MOTION), "name": make.tell(say("Lift h"))}
-        yield {
-            **named,
-            "unit": lift_unit(make, solution),
-            "kind": "number",
-            "value": value,
-            **room.plain(),
-            "with": shares,
-        }
+        named = make.field(lift.path, "number", say("Lift h"), lift.value, lift_unit(solution.task.follower.column))
+        yield {**named, **lift.range.plain(), "with": lift.shares}
     yield from make.numbers("motion.radii")
     yield make.choice("rotation", say("Rotation of the cam"), SENSE_NAMES.items())
     yield make.number("speed_rpm")
@@ -97,8 +86,8 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """The fields of the follower, its sizes, and the prime radius."""
     sizes = sizes_of(solution.task)
-    kinds = make.choice("follower.kind", say("Kind of follower"), ())
-    yield kinds | {"choices": kind_choices(solution, make.tell)}
+    choices = kind_choices(solution, make.tell)
+    yield make.field("follower.kind", "choice", say("Kind of follower"), sizes["kind"], choices=choices)
     yield from make.numbers("follower")
     if "lift" in sizes:
         yield make.choice("follower.lift", say("Lifts of the phases"), LIFT_NAMES.items())
@@ -131,15 +120,13 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 def _added(make: FieldMaker, path: str, name: Caption, added: dict[str, Any]) -> Field:
     """A choice whether the task has a table; ``added`` is what changes with it."""
-    chosen, gone = (
-        make.said.get(path) is not None,
-        dict.fromkeys(("spring", "material") if path == "spring" else (path,)),
-    )
+    chosen = make.said.get(path) is not None
+    gone = dict.fromkeys(("spring", "material") if path == "spring" else (path,))
     choices = [
         {"value": value, "name": make.tell(title), "changes": {} if value == chosen else changes}
         for value, title, changes in ((False, say("not calculated"), gone), (True, say("calculated"), added))
     ]
-    return make.choice(path, name, ()) | {"value": chosen, "choices": choices}
+    return make.field(path, "choice", name, chosen, choices=choices)
 
 
 def _added_spring(solution: Solution) -> dict[str, Any]:

@@ -43,6 +43,15 @@ def value_at(task: Mapping[str, Any], path: str) -> Any:
     return found
 
 
+def table_in(data: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """The table under a key, an empty one in place of what is none.
+
+    >>> table_in({"drawing": {"divisions": 12}}, "drawing"), table_in({"drawing": 12}, "drawing")
+    ({'divisions': 12}, {})
+    """
+    return table if isinstance(table := data.get(key), dict) else {}
+
+
 def changed_task(task: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """The task with other values at some paths; None leaves a key out, and so open.  The task itself stays as it is.
 
@@ -58,25 +67,16 @@ def changed_task(task: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[st
         *way, last = steps_of(path)
         table: Any = new
         for step in way:
-            table = _entered(table, step, path)
-        _set_value(table, last, copy.deepcopy(value), path)
+            _check(table, step, path)
+            if isinstance(step, str) and table.get(step) is None:
+                table[step] = {}
+            table = table[step]
+        _check(table, last, path)
+        if value is None and isinstance(last, str):
+            table.pop(last, None)
+        else:
+            table[last] = copy.deepcopy(value)
     return new
-
-
-def _entered(table: Any, step: str | int, path: str) -> Any:
-    """The table or list at a step; a table that is not there yet is made."""
-    _check(table, step, path)
-    if isinstance(step, str) and table.get(step) is None:
-        table[step] = {}
-    return table[step]
-
-
-def _set_value(table: Any, step: str | int, value: Any, path: str) -> None:
-    _check(table, step, path)
-    if value is None and isinstance(step, str):
-        table.pop(step, None)
-    else:
-        table[step] = value
 
 
 def _check(table: Any, step: str | int, path: str) -> None:

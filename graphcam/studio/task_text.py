@@ -1,11 +1,13 @@
 """Tasks as the page has them, in plain data, and as task files: TOML text, no file of this machine."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
 from graphcam.given.table_file import CurveTable, Turn, table_from_text
-from graphcam.studio.views_request import optional_value, task_data, task_in
+from graphcam.studio.task_paths import table_in
+from graphcam.studio.views_request import TaskRequest, read_request, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.motion_tables import tolerance_in
 from graphcam.tasks.task import Task
@@ -84,9 +86,17 @@ def task_file(request: Mapping[str, Any]) -> Plain:
     >>> found["name"], found["text"].splitlines()[0]
     ('task.toml', 'rotation = "cw"')
     """
-    spoken = optional_value(request, "language", str, "en")
-    files = task_files(task_in(task_data(request), spoken))
+    asked = read_request(TaskRequest, request)
+    files = task_files(task_in(asked.task, asked.language))
     return {"name": TASK_FILE, "text": files.pop(TASK_FILE), "files": files}
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedFile:
+    """The text of a task's file, and by their names those of the files that it names."""
+
+    text: str = ""
+    files: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
 
 def opened_task(request: Mapping[str, Any]) -> Plain:
@@ -104,20 +114,18 @@ def opened_task(request: Mapping[str, Any]) -> Plain:
     >>> opened_task({"text": files["text"], "files": files["files"]})["task"] == task
     True
     """
-    text = optional_value(request, "text", str, "")[:MAX_LENGTH]
-    data = parse_toml(TASK_FILE, text.encode())
-    spoken = drawing.get("language") if isinstance(drawing := data.get("drawing"), dict) else None
-    task = task_in(
-        _with_table(data, optional_value(request, "files", dict, {})), spoken if isinstance(spoken, str) else "en"
-    )
-    return {"task": plain_task(task)}
+    opened = read_request(OpenedFile, request)
+    data = parse_toml(TASK_FILE, opened.text[:MAX_LENGTH].encode())
+    spoken = table_in(data, "drawing").get("language")
+    data = _with_table(data, opened.files)
+    return {"task": plain_task(task_in(data, spoken if isinstance(spoken, str) else "en"))}
 
 
 def _with_table(data: Plain, files: Mapping[str, Any]) -> Plain:
     """The data with the table of a measured motion in place of its name, where its text is given."""
-    motion = data.get("motion")
-    name = motion.get("table") if isinstance(motion, dict) else None
-    if not isinstance(motion, dict) or not isinstance(name, str) or not isinstance(files.get(name), str):
+    motion = table_in(data, "motion")
+    name = motion.get("table")
+    if not isinstance(name, str) or not isinstance(files.get(name), str):
         return data
     table = table_from_text(files[name], name, name, tolerance_in(motion), Turn.given_in(motion))
     return {**data, "motion": {**motion, "table": plain_table(table)}}

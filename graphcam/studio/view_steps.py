@@ -4,7 +4,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from graphcam.drafting.act_order import ActPlaces
@@ -15,8 +15,7 @@ from graphcam.errors import DesignError, choice_limit
 from graphcam.report.sheet_contents import chapter_numbers, construction_named, names_of, scaled_steps, scales_found
 from graphcam.report.step_player import drawn_in_parts, step_slides
 from graphcam.sheets.layout import Numbered
-from graphcam.sheets.model import Source
-from graphcam.sheets.player import PartText, Pieces, ReadingText, Slide
+from graphcam.sheets.player import Acts, PartText, Pieces, ReadingText, Slide
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import Caption, Tell, say
 
@@ -107,17 +106,13 @@ class ViewSteps:
 
     def ordinate(self, view: str, tell: Tell) -> dict[str, object] | None:
         """What a millimetre of paper stands for in a view, angles in degrees; None where no reading settles it."""
-        read = next(
-            (each.readings[each.meaning.scales[view]] for each in self.drawn.values() if view in each.meaning.scales),
-            None,
-        )
-        if read is None:
+        if not (settling := self.settling(view)):
             return None
-        degrees = read.unit == "rad"
-        return {
-            "per_mm": math.degrees(read.per_mm) if degrees else read.per_mm,
-            "unit": "°" if degrees else tell(unit(read.unit)),
-        }
+        construction = self.drawn[settling[0]]
+        read = construction.readings[construction.meaning.scales[view]]
+        if read.unit == "rad":
+            return {"per_mm": math.degrees(read.per_mm), "unit": "°"}
+        return {"per_mm": read.per_mm, "unit": tell(unit(read.unit))}
 
     def names(self, tell: Tell) -> tuple[ViewName, ...]:
         """What an answer says of every view."""
@@ -194,14 +189,8 @@ class StepsData:
     """
 
     slides: Mapping[int, Slide]
-    acts: ActNumbering
-    headings: Mapping[str, tuple[str, int]] = field(default_factory=dict[str, tuple[str, int]])
-    in_parts: Collection[int] = field(default_factory=frozenset[int])
-
-    def shown_by(self, source: Source) -> tuple[int | None, bool]:
-        """The number of the act that an entity shows, and whether it is drawn in parts."""
-        number = self.acts.numbers.get(source.of) if isinstance(source.of, Act) else None
-        return number, number in self.in_parts
+    acts: Acts
+    headings: Mapping[str, tuple[str, int]]
 
     def plain(self, step: NamedStep) -> dict[str, Any]:
         """What is said of a step as plain data."""
@@ -227,23 +216,16 @@ def steps_data(known: ViewSteps, views: Collection[str], tell: Tell) -> StepsDat
     seen = dict.fromkeys(mark.of for mark in marks if isinstance(mark.of, Act))
     acts = ActNumbering({act: number for number, act in enumerate(seen)})
     last = max((each.number for each in known.steps if each.step.view.name in views), default=0)
-    steps = step_slides(
-        known.drawn,
-        known.numbered_steps,
-        known.numbers,
-        acts,
-        tell,
-        lambda step: step.view.name in views,
-    )
+    asked = known.drawn, known.numbered_steps, known.numbers
     slides: dict[int, Slide] = {}
-    for number, slide in steps:
+    for number, slide in step_slides(*asked, acts, tell, lambda step: step.view.name in views):
         slides[number] = slide
         if number == last:
             break
     titles = {each.step.view.name: tell(each.step.view.title).replace("，", ", ") for each in known.steps}
     found = scales_found(known.drawn, known.numbered_steps)
     headings = {view: (titles[view].partition(", ")[0], step) for view, step in found.items() if view in titles}
-    return StepsData(slides, acts, headings, drawn_in_parts(slides.values()))
+    return StepsData(slides, Acts(numbers=acts.numbers, in_parts=drawn_in_parts(slides.values())), headings)
 
 
 def _part(part: PartText) -> dict[str, Any]:

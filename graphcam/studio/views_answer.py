@@ -16,7 +16,7 @@ from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import format_of
 from graphcam.studio.drawn_views import DrawnView, digest, drawn_view, key_of
 from graphcam.studio.handle import Changes
-from graphcam.studio.handles import MECHANISM_VIEW, dragged_within, handles_of
+from graphcam.studio.handles import MECHANISM_VIEW, dragged, handles_of
 from graphcam.studio.held_solutions import (
     DragHold,
     diagrams_of,
@@ -73,7 +73,7 @@ def moved_task(request: ViewsRequest, hold: DragHold | None) -> MovedTask:
     if request.drag is None:
         return MovedTask(with_changes({}), {}, request.phi, request.station)
     grabbed = with_changes({})
-    changes, solution = dragged_within(grabbed, request.drag, with_changes, request.phi, request.station)
+    changes, solution = dragged(grabbed, request.drag, with_changes, request.phi)
     return MovedTask(solution, changes, changes.get("phi", request.phi), changes.get("station", request.station))
 
 
@@ -147,7 +147,7 @@ def _handles(moved: MovedTask, asked: Iterable[AskedView], request: ViewsRequest
     if request.upto:
         return []
     views = [*(view.name for view in asked), *([MECHANISM_VIEW] if request.mechanism else [])]
-    return handles_of(moved.solution, views, spoken.text, moved.phi, moved.station)
+    return handles_of(moved.solution, views, spoken.text, moved.phi)
 
 
 def _steps_of_request(
@@ -174,7 +174,7 @@ def _drawn_views(
 def _view(asked: AskedView, drawn: DrawnView, known: ViewSteps, told: StepsData | None, spoken: Language) -> Plain:
     """A view as plain data; of a step that the page has already only its hash, and of a plain view nothing is told."""
     told = None if asked.plain else told
-    svg = drawn.svg(told.shown_by if told else None)
+    svg = drawn.svg(told.acts.shown_by if told else None)
     steps: dict[str, Plain] = {}
     for each, _ in drawn.steps:
         found = digest(svg[each.id])

@@ -1,18 +1,22 @@
 """What the page asks for, checked: senseless values become an error that names the field."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field, fields
+from typing import Annotated, Any, TypeVar
 
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
-from graphcam.language import language
+from graphcam.language import ENGLISH, language
+from graphcam.studio.size_ranges import MAX_PHASES
+from graphcam.studio.task_paths import table_in
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.dataclass_reader import Misfit, WrongType, read_dataclass
+from graphcam.tasks.number_limits import Within, check_limits
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
-from graphcam.words import bare_caption, say
+from graphcam.words import say
 
-MAX_DIVISIONS, MAX_PHASES, MAX_ROWS, MAX_POINTS = 200, 36, 2000, 60
+MAX_DIVISIONS, MAX_ROWS, MAX_POINTS = 200, 2000, 60
 """Maximum sizes of a task in the studio: more take too long to be drawn while a size is moved."""
 MAX_VIEWS = 20
 """The maximum number of views in one request."""
@@ -20,44 +24,90 @@ MIN_LETTERED_SCALE = 0.8
 """A view shown smaller than this has no labels [px per mm]: it is a small picture, to be recognised and not read."""
 MAX_PENCIL_ERROR = 1.0
 """Standard deviation of a line [mm]: with more nothing can be read."""
-LETTER_PX = 10.0, 8.0, 40.0
-"""The least height of letters on the screen [px]: usual, at least, at most."""
+MIN_LETTER_PX, USUAL_LETTER_PX = 8.0, 10.0
+"""The least height of letters on the screen [px]."""
 MAX_PX_PER_MM = 40.0
-"""Pixels per mm at most."""
+"""Pixels per mm at most, and of a letter."""
 
 Data = Mapping[str, Any]
 """Plain data, as JSON has them."""
+Asked = TypeVar("Asked")
 
 
-@dataclass(frozen=True)
+def read_request(kind: type[Asked], data: Data) -> Asked:
+    """What a request asks for, as its class declares it; keys that this lacks are passed over, null is left out.
+
+    Raises
+    ------
+    DesignError : a value of the wrong kind, or beyond the limits; it names the key
+
+    >>> read_request(AskedView, {"name": "plan", "px_per_mm": 3, "colour": "red"}).px_per_mm
+    3.0
+    """
+    found = read_dataclass(kind, known_keys(kind, data))
+    if not isinstance(found, list):
+        return found
+    fault = found[0]
+    if isinstance(fault, Misfit):
+        raise fault.error
+    name = ".".join(step for step in fault.place if isinstance(step, str))
+    if isinstance(fault, WrongType):
+        value: Any = data
+        for step in fault.place:
+            value = value[step]
+        raise DesignError(name, repr(value)[:40], fault.expected)
+    raise DesignError(name, say("missing"), say("given"))
+
+
+def known_keys(kind: type, data: Any) -> Any:
+    """A table without null and the keys that a class lacks; anything else as it is."""
+    keys = {each.metadata.get("alias", each.name) for each in fields(kind)}
+    return {key: data[key] for key in data if key in keys and data[key] is not None} if isinstance(data, dict) else data
+
+
+@dataclass(frozen=True, eq=False)
 class AskedView:
     """A view that is to be drawn.
 
     px_per_mm : how large it is shown
-    letter_px : no letter is smaller
-    lettered : whether letters of that height were asked for
+    letter_px : no letter is smaller; None where no height was asked for
     plain : whether its axes, results and limits are drawn alone, without the construction
     have : hashes of the steps that the page has already, by their identifiers
     """
 
     name: str
-    px_per_mm: float
-    letter_px: float
-    lettered: bool
-    plain: bool
-    have: Mapping[str, str]
+    px_per_mm: Annotated[float, Within(0.0, MAX_PX_PER_MM)] = 2.0
+    letter_px: Annotated[float, Within(MIN_LETTER_PX, MAX_PX_PER_MM)] | None = None
+    plain: bool = False
+    have: Mapping[str, str] = field(default_factory=dict[str, str])
+
+    def __post_init__(self) -> None:
+        """Check the limits of its numbers."""
+        check_limits(self)
 
     @property
     def labelled(self) -> bool:
         """Whether it is large enough for labels, or has letters of a size that was asked for."""
-        return self.plain or self.lettered or self.px_per_mm >= MIN_LETTERED_SCALE
+        return self.plain or self.letter_px is not None or self.px_per_mm >= MIN_LETTERED_SCALE
 
 
-@dataclass(frozen=True, eq=False)
-class ViewsRequest:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TaskRequest:
+    """What is asked of a task, in plain data, and the language of the answer."""
+
+    task: dict[str, Any]
+    language: str = ENGLISH.name
+
+    def __post_init__(self) -> None:
+        """Check the limits of its numbers, and that there is such a language."""
+        check_limits(self)
+        language(self.language)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ViewsRequest(TaskRequest):
     """What is asked of the views of a task.
 
-    task : as plain data
     told, values, warnings, form, mechanism : what is wanted besides the drawing
     hold : plain data of an earlier answer, while the hand is down
     drag : plain data of a handle that is dragged
@@ -65,19 +115,23 @@ class ViewsRequest:
     upto : the last construction that is shown
     """
 
-    task: dict[str, Any]
-    views: tuple[AskedView, ...]
-    language: str
-    told: bool
-    values: bool
-    warnings: bool
-    form: bool
-    mechanism: bool
-    hold: Data | None
-    drag: Data | None
-    phi: float
-    station: int | None
-    upto: str | None
+    views: tuple[AskedView, ...] = ()
+    told: bool = False
+    values: bool = False
+    warnings: bool = False
+    form: bool = False
+    mechanism: bool = False
+    hold: dict[str, Any] | None = None
+    drag: dict[str, Any] | None = None
+    phi: Annotated[float, Within(-360.0, 720.0)] = 0.0
+    station: Annotated[int, Within(0, 10_000)] | None = None
+    upto: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check that so many views are drawn in one answer."""
+        super().__post_init__()
+        if len(self.views) > MAX_VIEWS:
+            raise DesignError("views", len(self.views), say("at most {most} in a request", most=MAX_VIEWS))
 
 
 def views_request(data: Data) -> ViewsRequest:
@@ -87,36 +141,20 @@ def views_request(data: Data) -> ViewsRequest:
     ------
     DesignError : a value of the wrong kind, or beyond the limits
     """
-    wanted = {name: flag(data, name) for name in ("told", "values", "warnings", "form", "mechanism")}
-    views = optional_value(data, "views", list, [])
-    if len(views) > MAX_VIEWS:
-        raise DesignError("views", len(views), say("at most {most} in a request", most=MAX_VIEWS))
-    spoken = optional_value(data, "language", str, "en")
-    language(spoken)
-    return ViewsRequest(
-        task=task_data(data),
-        views=tuple(_asked_view(view) for view in views),
-        language=spoken,
-        **wanted,
-        hold=optional_value(data, "hold", dict, None),
-        drag=optional_value(data, "drag", dict, None),
-        phi=number(data, "phi", 0.0, -360.0, 720.0),
-        station=optional_whole_number(data, "station", None, 0, 10_000),
-        upto=optional_value(data, "upto", str, None),
-    )
+    if isinstance(views := data.get("views"), list):
+        data = {**data, "views": [known_keys(AskedView, view) for view in views]}
+    return read_request(ViewsRequest, data)
 
 
-def task_data(data: Data) -> dict[str, Any]:
-    """The plain data of a request's task.
+@dataclass(frozen=True, eq=False)
+class _HandData:
+    """The hand that draws: the standard deviation of its lines [mm]."""
 
-    Raises
-    ------
-    DesignError : there is none
-    """
-    if not isinstance(task := data.get("task"), dict) or not task:
-        limit = say("a table with a task")
-        raise DesignError("task", say("missing") if task is None else bare_caption(type(task).__name__), limit)
-    return task
+    pencil: Annotated[float, Within(0.0, MAX_PENCIL_ERROR)] = 0.0
+
+    def __post_init__(self) -> None:
+        """Check that something can be read of what it draws."""
+        check_limits(self)
 
 
 def pencil_in(data: Data) -> Pencil:
@@ -125,7 +163,7 @@ def pencil_in(data: Data) -> Pencil:
     >>> pencil_in({"pencil": 0.2}).line, pencil_in({}).perfect
     (0.2, True)
     """
-    return Pencil.of(number(data, "pencil", 0.0, 0.0, MAX_PENCIL_ERROR))
+    return Pencil.of(read_request(_HandData, data).pencil)
 
 
 def task_in(data: dict[str, Any], spoken: str = "en") -> Task | ArcsTask:
@@ -149,104 +187,21 @@ def task_in(data: dict[str, Any], spoken: str = "en") -> Task | ArcsTask:
 
 def _check_size(data: Data) -> None:
     """Check, before anything is made of a task, that it is not too large."""
-    motion, drawing = (part if isinstance(part := data.get(name), dict) else {} for name in ("motion", "drawing"))
-    table = part if isinstance(part := motion.get("table"), dict) else {}
-    divisions = drawing.get("divisions")
+    motion, divisions = table_in(data, "motion"), table_in(data, "drawing").get("divisions")
+    points = [
+        len(_listed(part.get("points"))) if isinstance(part, dict) else 0 for part in _listed(motion.get("parts"))
+    ]
     sizes = {
         "drawing.divisions": (divisions if isinstance(divisions, int) else 0, MAX_DIVISIONS),
-        "motion.phases": (_length(motion.get("phases")), MAX_PHASES),
-        "motion.parts": (
-            sum(map(_point_count, parts)) if isinstance(parts := motion.get("parts"), list) else 0,
-            MAX_POINTS,
-        ),
-        "motion.table.rows": (_length(table.get("rows")), MAX_ROWS),
+        "motion.phases": (len(_listed(motion.get("phases"))), MAX_PHASES),
+        "motion.parts": (sum(max(1, count) for count in points), MAX_POINTS),
+        "motion.table.rows": (len(_listed(table_in(motion, "table").get("rows"))), MAX_ROWS),
     }
     for name, (size, most) in sizes.items():
         if size > most:
             raise DesignError(name, size, say("at most {most} in the studio", most=most))
 
 
-def _point_count(part: Any) -> int:
-    """The number of points of a part by conditions, at least 1; 1 for what is no such part."""
-    return max(1, _length(part.get("points"))) if isinstance(part, dict) else 1
-
-
-def _length(value: Any) -> int:
-    return len(value) if isinstance(value, list) else 0
-
-
-def _asked_view(view: Any) -> AskedView:
-    if not isinstance(view, dict):
-        raise DesignError("views", type(view).__name__, say("tables with a name"))
-    have = optional_value(view, "have", dict, {})
-    name = optional_value(view, "name", str, None)
-    if name is None:
-        raise DesignError("views.name", say("missing"), say("given"))
-    px_per_mm, letter_px = number(view, "px_per_mm", 2.0, 0.0, MAX_PX_PER_MM), number(view, "letter_px", *LETTER_PX)
-    return AskedView(
-        name, px_per_mm, letter_px, "letter_px" in view, flag(view, "plain"), {str(key): str(have[key]) for key in have}
-    )
-
-
-def flag(data: Data, name: str) -> bool:
-    """Whether something is wanted."""
-    return optional_value(data, name, bool, False)
-
-
-def optional_value(data: Data, name: str, kind: type, otherwise: Any) -> Any:
-    """A value of a kind, or another one where it is left out or null.
-
-    Raises
-    ------
-    DesignError : it is of another kind
-
-    >>> optional_value({"told": True}, "told", bool, False), optional_value({}, "told", bool, False)
-    (True, False)
-    """
-    value = data.get(name)
-    if value is None:
-        return otherwise
-    if not isinstance(value, kind):
-        raise DesignError(name, _shown_value(value), say("{kinds} or left out", kinds=KIND_NAMES[kind]))
-    return value
-
-
-KIND_NAMES = {bool: "true or false", str: "text", list: "a list", dict: "a table"}
-"""What the kinds of plain data are called."""
-
-
-def number(data: Data, name: str, otherwise: float, low: float, high: float) -> float:
-    """A number within limits.
-
-    Raises
-    ------
-    DesignError : it is none, or beyond them
-    """
-    value = data.get(name)
-    if value is None:
-        return otherwise
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise DesignError(name, _shown_value(value), say("a number"))
-    if not low <= value <= high:
-        raise DesignError(name, _shown_value(value), say("from {low:g} to {high:g}", low=low, high=high))
-    return float(value)
-
-
-def optional_whole_number(data: Data, name: str, otherwise: int | None, low: int, high: int) -> int | None:
-    """A whole number within limits.
-
-    Raises
-    ------
-    DesignError : it is none, or beyond them
-    """
-    if data.get(name) is None:
-        return otherwise
-    value = number(data, name, 0.0, low, high)
-    if value != int(value):
-        raise DesignError(name, value, say("a whole number"))
-    return int(value)
-
-
-def _shown_value(value: Any) -> str:
-    """A value of the wrong kind, in few letters."""
-    return repr(value)[:40]
+def _listed(value: Any) -> list[Any]:
+    """A list, empty in place of what is none."""
+    return value if isinstance(value, list) else []

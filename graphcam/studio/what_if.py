@@ -2,15 +2,15 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import Any
+from contextlib import suppress
+from dataclasses import asdict, dataclass, field, replace
+from typing import Annotated, Any
 
 import numpy as np
 
 from graphcam.constructions.axes import phase_title
 from graphcam.drafting.scale import UNITS
 from graphcam.errors import DesignError, GraphcamError
-from graphcam.given.follower import Follower
 from graphcam.given.measured import MeasuredMotion
 from graphcam.language import language
 from graphcam.mechanism.cam import Cam
@@ -25,8 +25,9 @@ from graphcam.studio.held_solutions import held_solution
 from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, has_angles, sizes_of
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.task_paths import changed_task
-from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
+from graphcam.studio.views_request import TaskRequest, read_request, task_in
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.number_limits import Within
 from graphcam.tasks.task import Task
 from graphcam.words import Caption, Tell, say
 
@@ -73,29 +74,33 @@ def exact_design(task: Task | ArcsTask) -> Design:
 
 def _of_motion(task: Task) -> dict[str, float | None]:
     """The design of a cam whose follower moves by laws, or as it was measured."""
-    motion, given = task.motion(), task.follower
-    least, place = _exact_least_radius(task)
+    sizes, (least, place) = sizes_of(task), _exact_least_radius(task)
     r0 = least if task.prime_radius is None else task.prime_radius
+    found_place = {name: place for name in ("offset", "distance") if name in sizes and sizes[name] is None}
     # The pitch curve does not depend on the roller, which the rule takes from it.
-    cam = Cam(motion, _follower(task, place), r0, task.rotation)
+    knife_edge = {"roller_radius": 0.0} if "roller_radius" in sizes else {}
+    cam = Cam(task.motion(), replace(task.follower(), **found_place, **knife_edge), r0, task.rotation)
     extremes = cam.extremes()
-    found: dict[str, float | None] = {"least_prime_radius": least, "prime_radius": r0}
-    rho = found["curvature_radius"] = extremes.min_convex_radius[0]
+    rho = extremes.min_convex_radius[0]
+    found: dict[str, float | None] = {"least_prime_radius": least, "prime_radius": r0, "curvature_radius": rho}
     if not has_angles(task):
         return found
     rise, back = (math.degrees(abs(each)) for each, _ in (extremes.pressure_angle_rise, extremes.pressure_angle_return))
     by_rule = min(term(rho=rho, r0=r0) for term in task.roller_terms)
-    roller = by_rule if given.roller_radius is None else given.roller_radius
+    roller = by_rule if sizes["roller_radius"] is None else sizes["roller_radius"]
     return found | {"pressure_angle_rise": rise, "pressure_angle_return": back, "roller_radius": roller}
 
 
 def _exact_least_radius(task: Task) -> tuple[float, float]:
     """The least prime radius and the place that goes with it [mm]; NaN where a given place keeps the limits nowhere."""
-    limits = task.limits()
-    asked: dict[str, Any] = {"rise": limits.rise, "return_": limits.return_, "rest": limits.rest, **_condition(task)}
+    sizes, sharpest, asked = sizes_of(task), task.limits.min_curvature_radius, asdict(task.limits())
+    if not has_angles(task):
+        asked["curvature"] = sharpest or 0.0
+    elif "offset" in sizes:
+        asked["offset"] = sizes["offset"]
     try:
         least = minimum_radius(task.motion(), task.follower(), task.rotation, **asked)
-        if least.place_name and (sharpest := task.limits.min_curvature_radius) is not None:
+        if least.place_name and sharpest is not None:
             placed = replace(task.follower(), **{least.place_name: least.place})
             asked |= {"curvature": sharpest} | ({"offset": least.place} if "offset" in asked else {})
             least = minimum_radius(task.motion(), placed, task.rotation, **asked)
@@ -104,20 +109,6 @@ def _exact_least_radius(task: Task) -> tuple[float, float]:
             raise
         return math.nan, math.nan
     return least.prime_radius, least.place
-
-
-def _follower(task: Task, place: float) -> Follower:
-    """The follower without its roller, at the place that was found if the task leaves it open."""
-    sizes = sizes_of(task)
-    found = {name: place for name in ("offset", "distance") if name in sizes and sizes[name] is None}
-    return replace(task.follower(), **found, **({"roller_radius": 0.0} if "roller_radius" in sizes else {}))
-
-
-def _condition(task: Task) -> dict[str, float | None]:
-    """What the least radius is asked for besides the angles."""
-    if not has_angles(task):
-        return {"curvature": task.limits.min_curvature_radius or 0.0}
-    return {name: size for name, size in sizes_of(task).items() if name == "offset"}
 
 
 def _of_arcs(task: ArcsTask) -> dict[str, float | None]:
@@ -135,10 +126,24 @@ def _of_arcs(task: ArcsTask) -> dict[str, float | None]:
     }
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SweepRequest(TaskRequest):
+    """How many designs of a task are asked for, over the size at a path, and what of them.
+
+    path : left out, the first size;  first, last : left out, the ends of its range
+    """
+
+    path: str | None = None
+    first: Annotated[float, Within(-MAX_SIZE, MAX_SIZE)] | None = field(default=None, metadata={"alias": "from"})
+    last: Annotated[float, Within(-MAX_SIZE, MAX_SIZE)] | None = field(default=None, metadata={"alias": "to"})
+    count: Annotated[int, Within(2, MAX_DESIGNS)] = DEFAULT_DESIGNS
+    quantities: tuple[Any, ...] = tuple(CURVE_TITLES)
+
+
 def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
     """The answer to "sweep": quantities of as many designs as are asked for, over one size.
 
-    data : ``task``, ``path``, ``from`` and ``to`` (left out, the range of the size), ``count``, ``quantities``
+    data : see :class:`SweepRequest`
 
     Raises
     ------
@@ -150,30 +155,34 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
     >>> found["at"], [round(r0, 2) for r0 in found["curves"][0]["values"]]
     ([-10.0, -5.0, 0.0], [43.28, 51.01, 59.43])
     """
-    task, spoken = task_data(data), language(optional_value(data, "language", str, "en"))
-    solution = held_solution(task, spoken.name)
-    sizes = {field["path"]: field for field in swept_fields(solution, spoken.text)}
-    path = optional_value(data, "path", str, next(iter(sizes)))
+    asked = read_request(SweepRequest, data)
+    task, tell, solution = asked.task, language(asked.language).text, held_solution(asked.task, asked.language)
+    sizes = {field["path"]: field for field in swept_fields(solution, tell)}
+    path = next(iter(sizes)) if asked.path is None else asked.path
     if path not in sizes:
         raise DesignError("path", path, say("a size of the task that can be swept"))
-    at = _places(data, sizes[path], solution)
-    designs = [_design(changed_task(task, changes_with(sizes[path], path, value))) for value in at]
-    wanted = optional_value(data, "quantities", list, list(CURVE_TITLES))
+    at = _places(asked, sizes[path], solution)
+    designs: list[Design] = []
+    for value in at:
+        designs.append({})
+        # Where there is no cam nothing is told.
+        with suppress(GraphcamError):
+            designs[-1] = exact_design(task_in(changed_task(task, changes_with(sizes[path], path, value))))
     return {
         "path": path,
         "now": sizes[path]["value"],
         "at": at,
-        "curves": _curves(designs, wanted, spoken.text),
+        "curves": _curves(designs, asked.quantities, tell),
         "limits": _limits(solution),
         "sizes": list(sizes.values()),
     }
 
 
-def _places(data: Mapping[str, Any], field: Field, solution: AnySolution) -> list[float]:
+def _places(asked: SweepRequest, field: Field, solution: AnySolution) -> list[float]:
     """The values that the size takes."""
-    first = number(data, "from", field["min"], -MAX_SIZE, MAX_SIZE)
-    last = number(data, "to", field["max"], -MAX_SIZE, MAX_SIZE)
-    count = optional_whole_number(data, "count", DEFAULT_DESIGNS, 2, MAX_DESIGNS) or DEFAULT_DESIGNS
+    count = asked.count
+    first = field["min"] if asked.first is None else asked.first
+    last = field["max"] if asked.last is None else asked.last
     if isinstance(solution, Solution) and isinstance(solution.cam.motion, MeasuredMotion):
         count = min(count, MAX_MEASURED_DESIGNS)
     return [round(value, 9) for value in np.linspace(first, last, count).tolist()]
@@ -217,14 +226,6 @@ def _phase_angles(solution: Solution, tell: Tell) -> Iterator[Field]:
         }
 
 
-def _design(task: dict[str, Any]) -> Design:
-    """The quantities of a design; none of what cannot be."""
-    try:
-        return exact_design(task_in(task))
-    except GraphcamError:
-        return {}
-
-
 def _curves(designs: Sequence[Design], wanted: Sequence[Any], tell: Tell) -> list[dict[str, Any]]:
     """The quantities that some design has."""
     return [
@@ -246,7 +247,7 @@ def _limits(solution: AnySolution) -> dict[str, float | None]:
     limits = solution.task.limits
     if not has_angles(solution.task):
         return {"curvature_radius": limits.min_curvature_radius or 0.0}
-    permitted, sharpest = solution.task.limits(), limits.min_curvature_radius
+    permitted, sharpest = limits(), limits.min_curvature_radius
     back, roller = permitted.return_, solution.chain.board.roller_radius
     profile = {} if sharpest is None or roller is None else {"curvature_radius": roller + sharpest}
     return profile | {

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
@@ -50,22 +49,8 @@ INK_STYLES = f"""
 """Everything in print, as on a sheet."""
 
 
-@dataclass(frozen=True)
-class StillPicture:
-    """A view of a task, all of its steps drawn.
-
-    svg : the picture, with its letters
-    title : of the view
-    caption : what the last of its steps says
-    """
-
-    svg: str
-    title: str
-    caption: str
-
-
-def still_picture(task: Mapping[str, Any], view: str | None = None, language: str = "en") -> StillPicture:
-    """The picture of a view.
+def still_picture(task: Mapping[str, Any], view: str | None = None, language: str = "en") -> Any:
+    """The picture of a view, all of its steps drawn, as it stands in a notebook, described by its last step.
 
     task : as plain data
     view : its name; by default the region, or the profile
@@ -76,7 +61,7 @@ def still_picture(task: Mapping[str, Any], view: str | None = None, language: st
 
     >>> import graphcam as gc
     >>> picture = still_picture(gc.builtin_task().to_dict(), "profile")
-    >>> picture.title, picture.svg.startswith("<svg")
+    >>> picture.caption, picture.image.startswith("<svg")
     ('Cam profile, 2:1', True)
     """
     asked = {"task": task, "language": language, "told": True}
@@ -92,7 +77,8 @@ def still_picture(task: Mapping[str, Any], view: str | None = None, language: st
         f'<svg xmlns="http://www.w3.org/2000/svg" class="page" viewBox="{frame}">'
         f"<style>{letters}{roles_css()}{INK_STYLES}</style>{lines}</svg>"
     )
-    return StillPicture(svg, drawn["title"], steps[-1]["caption"])
+    described, title = f"{drawn['title']}. {steps[-1]['caption']}", drawn["title"]
+    return higher_function("notebooks.construction_stages.Picture")(svg, described, title)
 
 
 class _PlainTask(traitlets.Dict):
@@ -160,10 +146,8 @@ class StudioWidget(anywidget.AnyWidget):
 
     def _still_picture(self, changes: Mapping[str, Any]) -> Any:
         """A picture of the task with other values."""
-        still = still_picture(changed_task(self._start if changes else self.task, changes), self.view, self._language)
-        return higher_function("notebooks.construction_stages.Picture")(
-            still.svg, f"{still.title}. {still.caption}", still.title
-        )
+        task = changed_task(self._start if changes else self.task, changes)
+        return still_picture(task, self.view, self._language)
 
     def _repr_mimebundle_(self, **_: Any) -> tuple[Plain, Plain]:
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}

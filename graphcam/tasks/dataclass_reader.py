@@ -188,7 +188,7 @@ def _reader(hint: Any) -> Reader:
         return _literal_reader(parts)
     if origin is tuple:
         return _list_reader(parts[0]) if parts[1:] == (...,) else _tuple_reader(parts)
-    if origin is Mapping:
+    if origin in (Mapping, dict):
         return _mapping_reader(parts[1])
     return _PLAIN_READERS[hint] if hint in _PLAIN_READERS else _dataclass_reader(hint)
 

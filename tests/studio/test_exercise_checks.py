@@ -29,7 +29,7 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.studio.address import MAX_LENGTH, place_of
 from graphcam.studio.engine import answer
-from graphcam.studio.exercise_checks import ITERATIONS, cell, check_of, hashed, is_right, salt_of
+from graphcam.studio.exercise_checks import ITERATIONS, cell, check_of, checked, hashed, salt_of
 from graphcam.studio.task_text import built_in_tasks
 
 SALT = b"salt of a test"
@@ -72,13 +72,14 @@ def test_without_openssl_the_hash_is_the_same(monkeypatch):
 )
 def test_all_within_the_tolerance_has_the_cell_of_the_key_and_nothing_beyond(key, tolerance, inside, outside, below):
     check = check_of("x", key, tolerance, SALT, iterations=FEW)
-    own = cell(key, check.offset, check.width)
-    assert cell(key + inside * tolerance, check.offset, check.width) == own
-    assert cell(key + (-outside if below else outside) * tolerance, check.offset, check.width) != own
+    cells = check["offset"], check["width"]
+    own = cell(key, *cells)
+    assert cell(key + inside * tolerance, *cells) == own
+    assert cell(key + (-outside if below else outside) * tolerance, *cells) != own
 
 
 def test_a_check_tells_neither_the_key_nor_the_answer_of_a_mistake():
-    check = check_of("r0", 43.28, 0.4, SALT, [(39.1, 0), (43.3, 1)]).plain
+    check = check_of("r0", 43.28, 0.4, SALT, [(39.1, 0), (43.3, 1)])
     assert "43" not in json.dumps(check["offset"])
     assert check["offset"] < check["width"] == pytest.approx(0.8, rel=1e-4)
     # What a mistake answers within the tolerance is right.
@@ -112,7 +113,8 @@ def test_the_tolerance_is_that_of_marking(issued):
         own = key.keys[asked["name"]]
         value = float(own.expected.value)
         for far, right in ((0.999, True), (-0.999, True), (1.01, False), (-1.01, False)):
-            assert is_right(asked["name"], value + far * own.tolerance, asked["check"], SALT) == right
+            found = checked(asked["name"], value + far * own.tolerance, asked["check"], SALT)
+            assert found["right"] == right
 
 
 def test_the_page_is_not_told_the_key(issued):
@@ -172,7 +174,7 @@ def test_links_stand_in_the_students_folders(tmp_path):
         assert text.split()[-1].startswith(URL + "#1.")
         salt = base64.urlsafe_b64decode(told["salt"])
         asked = told["answers"][0]
-        assert is_right(asked["name"], float(key.keys[asked["name"]].expected.value), asked["check"], salt)
+        assert checked(asked["name"], key.keys[asked["name"]].expected.value, asked["check"], salt)["right"]
     # Again without checks: then nothing of the key is in them.
     assert write_links(out, tmp_path / "secret", URL) == 2
     (*_, link) = (out / "students" / "s-1" / "studio.txt").read_text(encoding="utf-8").split()

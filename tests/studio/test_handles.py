@@ -17,7 +17,7 @@ from graphcam.studio import task_text
 from graphcam.studio.address import StudioPlace, address_of
 from graphcam.studio.engine import answer
 from graphcam.studio.handle import changes_with
-from graphcam.studio.handles import dragged, handles_of
+from graphcam.studio.handles import dragged as dragged_to, handles_of
 from graphcam.studio.held_solutions import hold_of
 from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.views_answer import moved_task
@@ -40,6 +40,11 @@ def at_rest(name):
     return found
 
 
+def dragged(solution, drag, phi=0.0):
+    """What a drag changes where everything can be drawn."""
+    return dragged_to(solution, drag, dict, phi)[0]
+
+
 def handles(name):
     return [handle for handle in at_rest(name)["handles"] if handle["view"] != "mechanism"]
 
@@ -53,7 +58,7 @@ def moved(name, handle, to, *, fine=False):
 
 def there(drawn, handle):
     """The same handle on the drawing that followed it."""
-    found = handles_of(drawn.solution, [handle["view"]], str, drawn.phi, drawn.station)
+    found = handles_of(drawn.solution, [handle["view"]], str, drawn.phi)
     return next(each for each in found if each["id"] == handle["id"])
 
 

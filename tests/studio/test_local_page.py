@@ -48,7 +48,7 @@ def window(browser):
 def test_the_page_shows_the_task_writes_and_ends_its_server(local, window, tmp_path):
     (server, thread), (page, complaints) = local, window
     foreign: list[str] = []
-    own = f"http://127.0.0.1:{server.gatekeeper.port}/"
+    own = f"http://127.0.0.1:{server.port}/"
     page.on("request", lambda one: one.url.startswith((own, "data:", "blob:")) or foreign.append(one.url))
     page.goto(opened_address(server, gc.builtin_task("arm")))
     settled(page)
@@ -57,7 +57,7 @@ def test_the_page_shows_the_task_writes_and_ends_its_server(local, window, tmp_p
     assert page.evaluate("() => studio.panes.map((pane) => pane.names().length)") == [1, 4]
     assert page.locator("#scene .cam").is_visible()
     # The token is nowhere to be seen or handed on.
-    assert server.gatekeeper.token not in page.url
+    assert server.token not in page.url
     assert page.evaluate("() => document.cookie") == ""
     page.locator("[data-write=note]").evaluate("button => button.click()")
     page.wait_for_function("() => document.getElementById('written').textContent.includes('note.md')")
@@ -116,14 +116,14 @@ def test_another_page_gets_nothing_even_with_the_token(local, window, tmp_path):
     (server, _), (page, _) = local, window
     asked = []
     server.write, server.engine = asked.append, asked.append
-    own = f"http://127.0.0.1:{server.gatekeeper.port}/"
+    own = f"http://127.0.0.1:{server.port}/"
     frame, form = (
         f'<iframe src="{own}"></iframe>',
         f'<form method="post" action="{own}write"><input name="kind"></form>',
     )
     with elsewhere(f'<link rel="icon" href="data:,">{frame}{form}') as address:
         page.goto(address)
-        got = page.evaluate(TRIES, {"to": own, "token": server.gatekeeper.token})
+        got = page.evaluate(TRIES, {"to": own, "token": server.token})
         assert got == dict.fromkeys(("page", "simple", "json", "token", "blind", "alive"), "TypeError")
         # The frame stays empty, for the page stands in no frame.
         time.sleep(0.5)

@@ -50,14 +50,14 @@ def server() -> Iterator[StudioServer]:
 
 
 def bearer(server: StudioServer) -> dict[str, str]:
-    return {"Authorization": f"Bearer {server.gatekeeper.token}", **JSON}
+    return {"Authorization": f"Bearer {server.token}", **JSON}
 
 
 def ask(server: StudioServer, method="POST", path="/engine", body: object = "{}", headers=None, host=None):
     """Status, headers and body of an answer."""
-    connection = HTTPConnection("127.0.0.1", server.gatekeeper.port, timeout=20)
+    connection = HTTPConnection("127.0.0.1", server.port, timeout=20)
     connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
-    connection.putheader("Host", host or f"127.0.0.1:{server.gatekeeper.port}")
+    connection.putheader("Host", host or f"127.0.0.1:{server.port}")
     for name, value in (bearer(server) if headers is None else headers).items():
         connection.putheader(name, value)
     if method == "POST":
@@ -70,7 +70,7 @@ def ask(server: StudioServer, method="POST", path="/engine", body: object = "{}"
 
 def raw(server: StudioServer, text: str, *later: str, pause: float = 0.0) -> bytes:
     """What comes back on bytes that no client would send."""
-    with socket.create_connection(("127.0.0.1", server.gatekeeper.port), timeout=20) as connection:
+    with socket.create_connection(("127.0.0.1", server.port), timeout=20) as connection:
         connection.sendall(text.replace("\n", "\r\n").encode())
         got = b""
         # A server that has enough may hang up while one still speaks.
@@ -85,8 +85,8 @@ def raw(server: StudioServer, text: str, *later: str, pause: float = 0.0) -> byt
 
 def head(server: StudioServer, *lines: str) -> str:
     """The head of a request to the engine that lacks nothing but what the lines say."""
-    token = f"Authorization: Bearer {server.gatekeeper.token}"
-    host = f"Host: 127.0.0.1:{server.gatekeeper.port}"
+    token = f"Authorization: Bearer {server.token}"
+    host = f"Host: 127.0.0.1:{server.port}"
     return "\n".join(["POST /engine HTTP/1.1", host, token, "Content-Type: application/json", *lines, "", ""])
 
 
@@ -98,7 +98,7 @@ def test_the_engine_answers_who_knows_the_token(server):
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
 def test_both_names_of_the_machine_are_known(server, host):
-    place = f"{host}:{server.gatekeeper.port}"
+    place = f"{host}:{server.port}"
     headers = {**bearer(server), "Origin": f"http://{place}"}
     assert ask(server, host=place, headers=headers)[0] == 200
 
@@ -110,18 +110,18 @@ def test_it_listens_on_this_machine_alone(server):
 
 def test_every_server_has_a_token_of_its_own_in_the_fragment():
     with StudioServer(PAGE, engine, engine) as one, StudioServer(PAGE, engine, engine) as other:
-        assert one.gatekeeper.token != other.gatekeeper.token
+        assert one.token != other.token
         before, _, token = one.address.partition("#t=")
-    assert before == f"http://127.0.0.1:{one.gatekeeper.port}/"
+    assert before == f"http://127.0.0.1:{one.port}/"
     # 256 bits in letters of six.
-    assert token == one.gatekeeper.token
+    assert token == one.token
     assert len(token) * 6 >= 256
 
 
 def test_the_page_needs_no_token_runs_its_own_scripts_and_stands_in_no_frame(server):
     status, headers, body = ask(server, "GET", "/", headers={})
     assert (status, body.decode()) == (200, PAGE)
-    assert server.gatekeeper.token.encode() not in body
+    assert server.token.encode() not in body
     policy = headers["Content-Security-Policy"]
     assert "frame-ancestors 'none'" in policy
     assert "default-src 'none'" in policy
@@ -160,17 +160,15 @@ def test_a_foreign_host_is_refused(server, host, method, path):
 
 
 def raw_host(server, method, path, host):
-    rest = f"Authorization: Bearer {server.gatekeeper.token}\nContent-Type: application/json\nContent-Length: 2\n\n{{}}"
+    rest = f"Authorization: Bearer {server.token}\nContent-Type: application/json\nContent-Length: 2\n\n{{}}"
     return raw(server, f"{method} {path} HTTP/1.1\n{host}\n{rest}")
 
 
 def test_no_host_and_two_hosts_are_refused(server):
-    right = f"Host: 127.0.0.1:{server.gatekeeper.port}"
+    right = f"Host: 127.0.0.1:{server.port}"
     assert raw_host(server, "POST", "/engine", "X: y").startswith(b"HTTP/1.1 403 ")
     assert raw_host(server, "POST", "/engine", f"{right}\nHost: example.com").startswith(b"HTTP/1.1 403 ")
-    assert raw_host(server, "POST", "/engine", f"{right}\nHost: example.com:{server.gatekeeper.port}").startswith(
-        b"HTTP/1.1 403 "
-    )
+    assert raw_host(server, "POST", "/engine", f"{right}\nHost: example.com:{server.port}").startswith(b"HTTP/1.1 403 ")
 
 
 @pytest.mark.parametrize("origin", ["http://example.com", "null", "https://127.0.0.1:{port}", "http://127.0.0.1", "http://localhost:1",
@@ -179,7 +177,7 @@ def test_no_host_and_two_hosts_are_refused(server):
     ("method", "path"), [("GET", "/"), ("POST", "/engine"), ("POST", "/write"), ("POST", "/alive")]
 )
 def test_a_foreign_origin_is_refused(server, origin, method, path):
-    headers = {**bearer(server), "Origin": origin.format(port=server.gatekeeper.port)}
+    headers = {**bearer(server), "Origin": origin.format(port=server.port)}
     assert ask(server, method, path, headers=headers)[0] == 403
 
 
@@ -188,7 +186,7 @@ def test_a_foreign_origin_is_refused(server, origin, method, path):
     "change", [lambda t: "", lambda t: t[:-1], lambda t: t + "A", lambda t: t.swapcase(), lambda t: "é" * len(t)]
 )
 def test_a_wrong_token_is_refused(server, path, change):
-    wrong = {**JSON, "Authorization": f"Bearer {change(server.gatekeeper.token)}".encode()}
+    wrong = {**JSON, "Authorization": f"Bearer {change(server.token)}".encode()}
     status, headers, _ = ask(server, path=path, headers=wrong)
     assert status == 401
     # A browser would ask its user for a password.
@@ -199,9 +197,9 @@ def test_a_wrong_token_is_refused(server, path, change):
     "given", [{}, {"Authorization": "Basic eDp5"}, {"Cookie": "t={token}"}, {"Authorization": "{token}"}]
 )
 def test_a_token_is_given_as_bearer_only(server, given):
-    headers = {name: value.format(token=server.gatekeeper.token) for name, value in given.items()}
+    headers = {name: value.format(token=server.token) for name, value in given.items()}
     assert ask(server, headers={**JSON, **headers})[0] == 401
-    assert ask(server, path=f"/engine?t={server.gatekeeper.token}", headers=JSON)[0] == 404
+    assert ask(server, path=f"/engine?t={server.token}", headers=JSON)[0] == 404
 
 
 def test_a_preflight_gets_no_leave(server):
@@ -280,13 +278,13 @@ def test_a_body_says_its_length(server, lines, status):
 
 
 def test_a_refused_body_is_not_the_next_request(server):
-    smuggled = f"POST /engine HTTP/1.1\nHost: 127.0.0.1:{server.gatekeeper.port}\n\n".replace("\n", "\r\n")
+    smuggled = f"POST /engine HTTP/1.1\nHost: 127.0.0.1:{server.port}\n\n".replace("\n", "\r\n")
     answers = raw(server, head(server, "Transfer-Encoding: chunked"), smuggled)
     assert answers.count(b"HTTP/1.1 ") == 1
 
 
 def test_one_connection_carries_many_requests(server):
-    connection = HTTPConnection("127.0.0.1", server.gatekeeper.port, timeout=20)
+    connection = HTTPConnection("127.0.0.1", server.port, timeout=20)
     for seq in range(20):
         connection.request("POST", "/engine", json.dumps({"seq": seq}), bearer(server))
         assert json.loads(connection.getresponse().read())["seq"] == seq
@@ -305,7 +303,7 @@ def test_a_slow_request_is_given_up(server, monkeypatch):
 
 
 def test_a_body_that_breaks_off_is_refused(server):
-    with socket.create_connection(("127.0.0.1", server.gatekeeper.port), timeout=20) as connection:
+    with socket.create_connection(("127.0.0.1", server.port), timeout=20) as connection:
         connection.sendall((head(server, "Content-Length: 100") + "{").replace("\n", "\r\n").encode())
         connection.shutdown(socket.SHUT_WR)
         assert connection.recv(65536).startswith(b"HTTP/1.1 400 ")
@@ -338,7 +336,7 @@ def test_a_fault_of_the_engine_is_told_and_the_next_request_answered(server, mon
 
 
 def test_who_goes_away_leaves_no_trace(server, capfd):
-    with socket.create_connection(("127.0.0.1", server.gatekeeper.port)) as connection:
+    with socket.create_connection(("127.0.0.1", server.port)) as connection:
         body = '{"ask": "wait", "seconds": 0.3}'
         connection.sendall((head(server, f"Content-Length: {len(body)}").replace("\n", "\r\n") + body).encode())
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\x01\0\0\0\0\0\0\0")

@@ -85,8 +85,7 @@ def _answer_check(
         if told not in sentences:
             sentences.append(told)
         wrong.append((each.value, sentences.index(told)))
-    check = check_of(asked.name, float(str(key.expected.value)), key.tolerance, salt, wrong)
-    return said | {"check": check.plain}
+    return said | {"check": check_of(asked.name, float(str(key.expected.value)), key.tolerance, salt, wrong)}
 
 
 def studio_address(variant: Variant, answer_key: AnswerKey | None = None, salt: bytes = b"") -> str:
