@@ -285,6 +285,10 @@ class ArcMotion(Plottable):
         z = self._start * np.exp(-1j * self.sigma * wrap(phi)) * (self.prime_radius + s)
         return np.stack([z.real, z.imag], axis=-1)
 
+    def pitch_curvature(self, phi: ArrayLike, side: Side = "right") -> Floats:
+        """Curvature kappa of the trace point's path on the cam [1/mm]: of each arc one."""
+        return self.arcs.curvature[self._place(phi, side)[0]]
+
     @property
     def jumps(self) -> list[Jump]:
         """The soft impacts: where the acceleration jumps [mm/rad^2]; the velocity never does: the arcs are tangent."""

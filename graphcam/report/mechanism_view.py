@@ -70,6 +70,7 @@ class MechanismScene:
     motion, normal : (n + 1,) unit directions of the trace point's motion on the rise, and of the normal off the cam
     alpha : (n + 1,) from the motion to the normal, positive in the sense of the rotation [rad]
     s, v : (n + 1,) displacement and velocity [mm, mm/rad; of an arm rad, rad/rad]
+    rho : (n + 1,) radius of curvature of the profile [mm], negative where it is hollow; NaN where it is cut away
     """
 
     kind: Literal["stem", "arm", "face", "blade"]
@@ -85,6 +86,7 @@ class MechanismScene:
     alpha: Floats
     s: Floats
     v: Floats
+    rho: Floats
     pivot: complex = 0j
     face: tuple[float, float] = (0.0, 0.0)
 
@@ -124,7 +126,15 @@ def cam_scene(solution: Solution) -> MechanismScene:
     profile, alpha = _outline(cam, contact, phi), cam.pressure_angle(phi - origin)
     points, (s, v, *_) = (shown.trace, contact, shown.motion, normal), values
     placed = shown.pivot, shown.face
-    return MechanismScene(shown.kind, cam.sigma, cam.roller_radius, profile, phases, phi, *points, alpha, s, v, *placed)
+    moved, rho = (alpha, s, v), _profile_radius(cam.pitch_curvature(phi - origin), cam.roller_radius)
+    return MechanismScene(shown.kind, cam.sigma, cam.roller_radius, profile, phases, phi, *points, *moved, rho, *placed)
+
+
+def _profile_radius(pitch_curvature: Floats, roller_radius: float) -> Floats:
+    """The radius of curvature of a profile [mm], by the curvature of its pitch curve [1/mm]."""
+    with np.errstate(divide="ignore"):
+        rho = 1 / pitch_curvature - roller_radius
+    return np.where((pitch_curvature > 0) & (rho < 0), np.nan, rho)
 
 
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
@@ -149,7 +159,8 @@ def arcs_scene(solution: ArcsSolution) -> MechanismScene:
     phases = tuple(TurnPhase(n, n, a, b) for n, (a, b) in zip(names, pairwise(edges), strict=True) if b > a)
     profile = (contact * np.exp(-1j * moved.sigma * phi))[:-1]
     points = (trace, contact, np.full(phi.shape, 1j), normal)
-    return MechanismScene("stem", moved.sigma, moved.roller_radius, profile, phases, phi, *points, alpha, s, v)
+    rho = _profile_radius(moved.pitch_curvature(phi), moved.roller_radius)
+    return MechanismScene("stem", moved.sigma, moved.roller_radius, profile, phases, phi, *points, alpha, s, v, rho)
 
 
 def _turn() -> Floats:
@@ -172,7 +183,8 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     if scene.kind == "face":
         del live["pressure_angle"]
     of_velocity = unit_of("rad/rad" if swings else "mm/rad")
-    units = "°", "°" if swings else " " + tell(unit_of("mm")), " " + tell(of_velocity)
+    mm = " " + tell(unit_of("mm"))
+    units = "°", "°" if swings else mm, " " + tell(of_velocity)
     data: dict[str, Any] = {
         "kind": scene.kind,
         "about": f"{tell(SCENE_DESCRIPTIONS[scene.kind])} {tell(INSTANT_CENTRES[swings])}",
@@ -190,9 +202,10 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
             **{name: _points(getattr(scene, name)) for name in ("trace", "contact")},
             **{name: _numbers(np.degrees(np.angle(getattr(scene, name)))) for name in ("motion", "normal")},
             **{name: _numbers(values) for name, values in live.items()},
+            "curvature_radius": _numbers(scene.rho),
         },
         "live": list(live),
-        "units": dict(zip(LIVE_READINGS, units, strict=True)),
+        "units": dict(zip(LIVE_READINGS, units, strict=True)) | {"curvature_radius": mm},
         "digits": dict(zip(LIVE_READINGS, (2, 2, 3 if swings else 2), strict=True)),
         "decimal": decimal,
     }

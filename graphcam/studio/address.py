@@ -44,6 +44,7 @@ class StudioPlace:
     part, station : of the step, and of the velocity plan
     phi : cam angle [degrees]; None is the usual one
     swept : the path of the size over which What if is drawn
+    colour : the quantity by which the turning profile is coloured
     pin : the task that is pinned beside it; None where there is none
     language : of the page; None is English
     exercise : what is asked of the task, see :mod:`graphcam.exercises.exports.studio_link`; None is nothing
@@ -60,6 +61,7 @@ class StudioPlace:
     mode: str | None = _told("m", "string", "play")
     panel: str | None = _told("o", "string", "sizes", "step")
     swept: str | None = _told("f", "string")
+    colour: str | None = _told("c", "string")
     pin: Mapping[str, Any] | None = _told("n", "task")
     exercise: Mapping[str, Any] | None = _told("x", "object")
     language: str | None = _told("l", "string", "en")

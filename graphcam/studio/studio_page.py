@@ -125,6 +125,10 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
         files="{files}",
     ),
     "replace_them": say("Write all the same"),
+    "colouring": say("Profile in colour"),
+    "colour_none": say_in("a colour", "none"),
+    "curvature_radius": say("Radius of curvature ρ"),
+    "straight": say_in("a profile", "straight"),
     "found": say_in("a size", "found"),
     "given": say_in("a size", "given"),
     "none": say_in("a size", "none"),
@@ -165,8 +169,8 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
 SHARED_SCRIPT_FILES = ("gestures.js", "board.js", "lights.js", "mechanism.js")
 SCRIPT_FILES = (
     "elements.js", "wire.js", "state.js", "address.js", "stage.js", "handles.js", "phases.js", "sizes.js", "panel.js",
-    "what_if.js", "strip.js", "walk.js", "cam_angle.js", "asking.js", "following.js", "changing.js", "picture.js",
-    "files.js", "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
+    "what_if.js", "strip.js", "walk.js", "colouring.js", "cam_angle.js", "asking.js", "following.js", "changing.js",
+    "picture.js", "files.js", "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
 )  # fmt: skip
 """The scripts in order; later ones use functions of earlier ones, and a mode's script is left out where none is."""
 LIBRARY_FILES = ("lit-html.js", "directive.js", "directive-helpers.js", "live.js", "repeat.js")

@@ -249,3 +249,42 @@ def test_a_drawing_of_which_nothing_is_found_is_an_answer(opened):
     settled(page)
     assert page.evaluate("() => studio.shown.error") is None
     assert "C₂ cannot be read" in page.locator("#panel-step").inner_text()
+
+
+BANDS = """() => [...document.querySelectorAll("#scene .band")].map((band) =>
+    [band.classList[1], parseFloat(band.style.getPropertyValue("--depth")), band.getTotalLength()])"""
+
+
+@pytest.mark.parametrize(("name", "sharpest"), [("arcs", "17 mm"), ("coursework", "12.7 mm")])
+def test_the_profile_is_coloured_by_its_curvature_with_a_bar(opened, name, sharpest):
+    page = opened(name, config=OPENING, reduced_motion="reduce")
+    assert page.evaluate(BANDS) == []
+    page.locator("#colour").select_option("curvature_radius")
+    settled(page)
+    bands, ends = page.evaluate(BANDS), page.locator(".colour-bar span").all_inner_texts()
+    assert ends[1] == sharpest
+    # A cam of arcs is nowhere hollow, and has as many depths as radii.
+    kinds, straight = {kind for kind, depth, _ in bands if depth}, ends[0] == "straight"
+    assert (kinds == {"sharp"}) == straight
+    assert straight == (name == "arcs")
+    of_arcs = {depth for _, depth, _ in bands}
+    assert name != "arcs" or len(of_arcs) <= 6
+    around = page.evaluate("() => document.querySelector('#scene .body').getTotalLength()")
+    assert sum(length for *_, length in bands) == pytest.approx(around, rel=2e-3)
+    page.reload()
+    settled(page)
+    assert page.evaluate(BANDS) == bands
+
+
+def test_the_profile_is_coloured_by_the_pressure_angle_where_there_is_one(opened):
+    page = opened("flat", config=OPENING, reduced_motion="reduce")
+    assert page.locator("#colour option").evaluate_all("(all) => all.map((one) => one.value)") == [
+        "",
+        "curvature_radius",
+    ]
+    page = opened(config=OPENING, reduced_motion="reduce")
+    page.locator("#colour").select_option("pressure_angle")
+    settled(page)
+    found = gc.solve(gc.builtin_task()).cam.extremes()
+    steepest = max(abs(found.pressure_angle_rise[0]), abs(found.pressure_angle_return[0]))
+    assert page.locator(".colour-bar span").all_inner_texts() == ["0°", f"{math.degrees(steepest):.3g}°"]

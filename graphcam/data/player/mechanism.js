@@ -118,7 +118,7 @@ function mechanismOf(picture, mechanism) {
   const read = (name, k) => written(arrays[name][k], mechanism.digits[name], mechanism.units[name]);
   const readPhi = (k) => written(k * step, 1, "°");
 
-  return { show, placeAt, phaseAt, read, readPhi, last };
+  return { cam, show, placeAt, phaseAt, read, readPhi, last };
 }
 
 // The course of a quantity over a turn, in a picture 360 wide and 60 high; moves its cursor to a place.

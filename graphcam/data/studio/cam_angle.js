@@ -8,14 +8,15 @@ const halfDegree = (degrees) => ((Math.round(2 * degrees) / 2) % 360 + 360) % 36
 function camAngleOf(page) {
   const { at, word, state, last, decimal } = page, now = state.get;
   const turning = { on: false, before: null, exact: 0 };
-  const curves = new WeakMap(), stood = new Map();
+  const curves = new WeakMap(), stood = new Map(), colouring = colouringOf(page);
 
   // --- what is shown of it ----------------------------------------------------------------------------------------------
 
   function showScene(pane) {
     const data = last.mechanism;
     if (!data) return;
-    if (pane.turned?.data !== data) pane.turned = { data, ...mechanismOf(pane.at("scene"), data) };
+    if (pane.turned?.data !== data) pane.turned = { data, painted: {}, ...mechanismOf(pane.at("scene"), data) };
+    paintProfile(pane.turned, now().colour);
     pane.turned.show(pane.turned.placeAt(now().phi));
     pane.stage.look({ name: "mechanism", frame: data.box }, { held: Boolean(page.hand) });
   }
@@ -45,7 +46,7 @@ function camAngleOf(page) {
       <svg class="spark" viewBox="0 0 360 60" preserveAspectRatio="none" aria-hidden="true"></svg></div>`;
     page.stepPanel.tell(html`<h2>${letters(turned.phaseAt(now().phi).name)}</h2>
       <p class="about">${letters(data.about)}</p>
-      <dl class="live">${data.live.map(rowOf)}</dl>`);
+      ${colouring(data)}<dl class="live">${data.live.map(rowOf)}</dl>`);
     at("panel-step").querySelectorAll(".spark").forEach((picture, j) => showSpark(picture, data, data.live[j], k));
   }
 

@@ -8,7 +8,7 @@
   const phone = matchMedia("(max-width: 51.99rem)");
 
   const state = stateOf({
-    name: config.name, task: config.task, view: config.view ?? null, beside: config.beside ?? null, swept: null, step: null, part: null, phi: USUAL_PHI, station: null,
+    name: config.name, task: config.task, view: config.view ?? null, beside: config.beside ?? null, swept: null, step: null, part: null, phi: USUAL_PHI, station: null, colour: null,
     pin: null, mode: "play", panel: phone.matches ? "sizes" : "step", board: false,
     // For the modes: the last construction that is shown, whether sizes are moved, which views and panels are locked.
     upto: config.exercise?.upto || null, inert: false, hidden: [],
@@ -70,7 +70,7 @@
     if (is("past", "hidden")) page.showStatus();
     if (is("step", "part", "board", "view", "beside", "inert", "hidden", "only")) page.showDrawing();
     if (is("phi", "view")) page.showPhi();
-    if (is("phi")) page.follow();
+    if (is("phi", "colour")) page.follow();
     if (is("phi") && !is("task", "station")) page.followPlan();
     if (is("panel", "inert", "hidden")) page.showPanels();
     if (is("pin")) {
@@ -82,7 +82,7 @@
     if (wire.tell && is("task", "view")) wire.tell({ task: now().task, view: now().view });
     if (page.hand?.drag || page.accepting) return;
     if (is("task", "view", "beside", "board", "upto", "station", "inert") || (is("phi") && !page.turning())) page.ask();
-    else if (is("step", "part", "pin", "mode", "hidden", "panel", "swept")) page.rest();
+    else if (is("step", "part", "pin", "mode", "hidden", "panel", "swept", "colour")) page.rest();
   });
 
   function togglePin() {
@@ -210,7 +210,7 @@
 
   // Another state as a whole, from an address, a file or the page around this one: resolves to whether it can be drawn.
   const wantWhole = (whole) => new Promise((done) => {
-    const { task, name } = now(), anew = { view: null, beside: null, step: null, part: null, phi: USUAL_PHI, station: null, swept: null };
+    const { task, name } = now(), anew = { view: null, beside: null, step: null, part: null, phi: USUAL_PHI, station: null, swept: null, colour: null };
     page.want(() => ({ forget: true, task, name, ...anew, ...whole, ...(whole.exercise && { upto: whole.exercise.upto || null }) })).done = done;
   });
   page.wantWhole = wantWhole;
