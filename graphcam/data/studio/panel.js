@@ -72,22 +72,28 @@ function stepPanelOf({ at, words, go, currentStep }) {
 
 // --- the values -----------------------------------------------------------------------------------------------------------
 
+// The values of the pinned cam, none until they are there; null where none is pinned.
+const pinnedValues = ({ state, pinned }) => (state.get().pin ? pinned?.values || [] : null);
+
 // A column is its name, its class, and what it says of a value.
 const pinnedColumn = (pinned) => ["pinned", "pin", ({ id }) => pinned.find((value) => value.id === id)?.said.drawn ?? "–"];
 
-function valuesTable(values, columns, words) {
+function valuesTable({ values }, columns, words) {
   const headOf = ([name, kind]) => html`<th scope="col" class=${kind === "pin" ? kind : nothing}>${words[name]}</th>`;
   const rowOf = (value) => html`<tr><th scope="row">${letters(value.title)}</th>${columns.map(([, kind, said]) =>
     html`<td class=${kind ?? nothing}>${letters(said(value))}</td>`)}</tr>`;
   return html`<table class="compare"><thead><tr>${[["quantity", null], ...columns].map(headOf)}</tr></thead>
-    <tbody>${values.map(rowOf)}</tbody></table>`;
+    <tbody>${values?.map(rowOf)}</tbody></table>`;
 }
 
-function valuesPanelOf({ at, words }) {
+function valuesPanelOf(page) {
+  const { at, words, last } = page;
   const columns = [["drawn", "now", ({ said }) => said.drawn], ["exact", null, ({ said }) => said.exact]];
   const bound = ["bound", "bound", ({ said }) => said.bound ?? ""];
-  return (values, pinned) => render(html`
-    <div class="scrolled" tabindex="0" role="region" aria-label=${words.values}>${
-      valuesTable(values, [...columns, pinned ? pinnedColumn(pinned) : bound], words)}</div>
-    <p class="hint">${letters(words.values_about)}</p>`, at("panel-values"));
+  return () => {
+    const pinned = pinnedValues(page), lastColumn = pinned ? pinnedColumn(pinned) : bound;
+    const table = valuesTable(last, [...columns, lastColumn], words);
+    render(html`<div class="scrolled" tabindex="0" role="region" aria-label=${words.values}>${table}</div>
+      <p class="hint">${letters(words.values_about)}</p>`, at("panel-values"));
+  };
 }

@@ -164,9 +164,8 @@ function pictureOf(page) {
   }
 
   function showValueTables() {
-    const pinned = now().pin ? page.pinned?.values || [] : null;
-    page.showValues(last.values || [], pinned);
-    page.whatIf.compare(last.values || [], pinned);
+    page.showValues();
+    page.whatIf.draw();
   }
 
   // What changes with every answer, also while a hand is down.

@@ -12,7 +12,7 @@ const VALUE_NAMES = {
 
 function whatIfOf(page) {
   const { at, words, decimal, last } = page, state = page.state.get, { language } = page.config;
-  let fields = [], asked = "", sweep = null, running = 0, values = [], pinnedValues = null;
+  let fields = [], asked = "", sweep = null, running = 0;
 
   const byPath = (isWanted) => fields.find(({ path }) => isWanted(path));
   const fieldOf = () =>
@@ -117,9 +117,10 @@ function whatIfOf(page) {
 
   // The present cam and the pinned one, side by side.
   function both() {
-    if (!pinnedValues) return html`<p class="hint">${words.pin_about}</p>`;
-    const columns = [["now", "now", ({ said }) => said.drawn], pinnedColumn(pinnedValues)];
-    return html`<h3>${words.side_by_side}</h3>${valuesTable(values, columns, words)}`;
+    const pinned = pinnedValues(page);
+    if (!pinned) return html`<p class="hint">${words.pin_about}</p>`;
+    const columns = [["now", "now", ({ said }) => said.drawn], pinnedColumn(pinned)];
+    return html`<h3>${words.side_by_side}</h3>${valuesTable(last, columns, words)}`;
   }
 
   function draw() {
@@ -129,7 +130,7 @@ function whatIfOf(page) {
         <select id="sweep-size" data-key="sweep-size" @change=${chosen}>${
           options(fields.map(({ path, name }) => [path, name]), isChosen)}</select></label>
       <div class="charts">${chartsOf(field)}</div>
-      <button type="button" class="pins" ?hidden=${pinnedValues} @click=${() => at("pin").click()}>${words.pin}</button>
+      <button type="button" class="pins" ?hidden=${state().pin} @click=${() => at("pin").click()}>${words.pin}</button>
       <div>${both()}</div>`, at("panel-what-if"));
   }
 
@@ -175,10 +176,5 @@ function whatIfOf(page) {
     };
   }
 
-  function compare(now, pinned) {
-    [values, pinnedValues] = [now, pinned];
-    draw();
-  }
-
-  return { offer, update, draw, compare };
+  return { offer, update, draw };
 }
