@@ -5,7 +5,7 @@ Places are complex, in mm of a view from its origin, y upwards; the page counts 
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -74,7 +74,7 @@ class HandleAxis:
     value: float
     range: SizeRange
     screen: str
-    extra: Mapping[str, Any] | None = None
+    extra: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
     def plain(self, tell: Tell) -> dict[str, Any]:
         """The axis as plain data for the page."""
@@ -88,7 +88,7 @@ class HandleAxis:
             "fine": round(each.step / 5, 9),
             "coarse": COARSE_STEPS * each.step,
             "screen": self.screen,
-            **(self.extra or {}),
+            **self.extra,
         }
 
 
@@ -206,7 +206,7 @@ def mark_handle(
             room = room._replace(step=room.step / 5) if drawn else room
             goes = abs(_way(own, wanted)) / (2 * NUDGE)
             value = snapped(wanted[0], room, fine=fine, magnets=near if goes else (), reach=reach / (goes or 1.0))
-            changes |= changes_with(axis.extra or {}, axis.path, value)
+            changes |= changes_with(axis.extra, axis.path, value)
             known += (value,)
         return changes
 

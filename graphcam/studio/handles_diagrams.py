@@ -193,10 +193,7 @@ def conditions(solution: Solution) -> Iterator[Handle]:
             elif not j:
                 continue
             rising = HandleAxis(f"{path}.s", say("Displacement s"), unit, point.s, lifts, "y", extra)
-
-            def mark(*sizes: float, angle: float = point.angle) -> complex:
-                return place(*sizes) if len(sizes) > 1 else place(angle, *sizes)
-
+            mark = place if axes else partial(place, point.angle)
             name = say("Point of the motion at {angle:g}°", angle=point.angle)
             yield mark_handle(DISPLACEMENT.name, f"point {k}.{j}", name, mark, [*axes, rising])
 

@@ -104,9 +104,9 @@ def of_combined(solution: Solution, phi: float) -> Iterator[Handle]:
 
 def cam_centre(solution: Solution) -> Handle:
     """The cam centre of a translating follower, on the line of its offset."""
-    region, chain, most = solution.chain["minimum_radius"], solution.chain, ranges(solution)["cam.prime_radius"].most
-    mu, lift, most = region.readings["prime_radius"].per_mm, lift_of(solution), max(most, chain.prime_radius)
-    step, roller = step_for(lift), solution.task.follower.roller_radius or 0.0
+    region, chain, lift = solution.chain["minimum_radius"], solution.chain, lift_of(solution)
+    mu, step = region.readings["prime_radius"].per_mm, step_for(lift)
+    most, roller = ranges(solution)["cam.prime_radius"].most, solution.task.follower.roller_radius or 0.0
     widest = min(max(round_up(lift), abs(chain.place)), most - step)
 
     def mark(e: float, r0: Any) -> Any:
@@ -126,9 +126,6 @@ def cam_centre(solution: Solution) -> Handle:
     return centre_handle(solution, COMBINED.name, mark, lines, axis, aside, radii, places)
 
 
-# --- an arm ----------------------------------------------------------------------------------------------------------
-
-
 def point_on_curve(view: str, places: str, solution: Solution, phi: float) -> Handle:
     """The handle of the cam angle on the curve of a view.
 
@@ -137,6 +134,9 @@ def point_on_curve(view: str, places: str, solution: Solution, phi: float) -> Ha
     stations, ends = solution.chain.board.stations, solution.chain["pressure_angle"].first(places)
     at = over_stations(stations, math.radians(phi), ends)
     return turn_handle(view, "D", say("Point D of the curve"), at, phi, ends, stations.phi)
+
+
+# --- an arm ----------------------------------------------------------------------------------------------------------
 
 
 def of_positions(solution: Solution, phi: float) -> Iterator[Handle]:

@@ -19,10 +19,11 @@ from graphcam.studio.engine import answer, error_data
 from graphcam.studio.server import StudioServer
 from graphcam.studio.studio_page import page
 from graphcam.studio.task_paths import table_in
-from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.task_text import built_in_tasks, nearest_built_in, page_config, plain_task
 from graphcam.studio.views_request import TaskRequest, read_request, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import builtin_task
 
 TABLE_FILE = "measured.csv"
 """What the file of a measured table is called, for the page can name no file."""
@@ -136,16 +137,8 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
     ...     "<title>" in server.page
     True
     """
-    builtin = built_in_tasks()
-    config: dict[str, Any] = {
-        "transport": "server",
-        "task": builtin["coursework"],
-        "name": "coursework",
-        "builtin": builtin,
-        "language": language,
-        "writes": WRITTEN_KINDS,
-        "languages": languages(),
-    }
+    more = {"transport": "server", "writes": WRITTEN_KINDS, "languages": languages()}
+    config = page_config(builtin_task(), language, **more)
 
     @cache
     def in_language(name: str) -> str | None:

@@ -69,11 +69,6 @@ JSON_TYPE = "application/json"
 class RefusedError(Exception):
     """A request that is not answered: the status of HTTP, and why."""
 
-    def __init__(self, status: HTTPStatus, why: str) -> None:
-        super().__init__(status, why)
-        self.status = status
-        self.why = why
-
 
 def _single_header(headers: Message, name: str) -> str | None:
     """The value of a header that stands there once."""
@@ -283,8 +278,9 @@ class _Handler(BaseHTTPRequestHandler):
     def _refuse(self, error: RefusedError) -> None:
         """Say why, and end the connection: a body that nobody has read would be taken for the next request."""
         self.close_connection = True
-        text = json.dumps({"ok": False, "error": {"field": "", "message": error.why, "remedy": ""}})
-        self._send(error.status, JSON_TYPE, text.encode())
+        status, why = error.args
+        text = json.dumps({"ok": False, "error": {"field": "", "message": why, "remedy": ""}})
+        self._send(status, JSON_TYPE, text.encode())
         # What still comes is read and dropped for a moment: a connection that is closed upon it takes the answer along.
         self.connection.shutdown(socket.SHUT_WR)
         self._stream.until = time.monotonic() + DRAIN_SECONDS

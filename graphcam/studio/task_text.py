@@ -47,10 +47,10 @@ def nearest_built_in(task: Task | ArcsTask) -> str:
     alike = {name: builtin_task(name) for name in BUILTIN_TASK_NAMES}
     kind, measured = task.follower.kind, task.motion.table is not None
 
-    def likeness(name: str) -> int:
+    def likeness(name: str) -> tuple[bool, bool, bool]:
+        """Whether all of it is alike, the kind of motion, and the follower; what comes first counts most."""
         other = alike[name]
-        same = other == task, (other.motion.table is not None) == measured, other.follower.kind == kind
-        return sum(2**k * part for k, part in enumerate(reversed(same)))
+        return other == task, (other.motion.table is not None) == measured, other.follower.kind == kind
 
     return max(alike, key=likeness)
 
@@ -67,6 +67,12 @@ def plain_task(task: Task | ArcsTask) -> Plain:
     if table is not None:
         said["motion"]["table"] = plain_table(table)
     return said
+
+
+def page_config(task: Task | ArcsTask, language: str, **more: Any) -> Plain:
+    """What every page of the studio must know of the task with which it opens, and more."""
+    named = {"task": plain_task(task), "name": nearest_built_in(task), "builtin": built_in_tasks()}
+    return {**named, "language": language, **more}
 
 
 def plain_table(table: CurveTable) -> Plain:

@@ -20,7 +20,7 @@ from graphcam.studio.address import differences
 from graphcam.studio.engine import answer
 from graphcam.studio.studio_page import PAGE_CAPTIONS, page
 from graphcam.studio.task_paths import changed_task
-from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.task_text import page_config, plain_task
 from graphcam.studio.views_answer import views_answer
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -110,17 +110,8 @@ class StudioWidget(anywidget.AnyWidget):
         given = task_from(dict(task)) if isinstance(task, Mapping) else task
         self._start, self._stills = plain_task(given), stills
         self._language = given.drawing.language
-        config = {
-            "transport": "parent",
-            "id": WIDGET_ID,
-            "task": self._start,
-            "view": view,
-            "name": nearest_built_in(given),
-            "builtin": built_in_tasks(),
-            "opening": "construction",
-            "beside": "",
-            "language": self._language,
-        }
+        shown = {"transport": "parent", "id": WIDGET_ID, "view": view, "opening": "construction", "beside": ""}
+        config = page_config(given, self._language, **shown)
         # The page around this one settles what may be asked for.
         text = page(config, policy="")
         super().__init__(task=self._start, view=view, page=text, title=str(PAGE_CAPTIONS["studio"]))

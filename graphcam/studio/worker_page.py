@@ -24,7 +24,7 @@ from graphcam.studio.pyodide_parts import (
     pyodide_parts,
 )
 from graphcam.studio.studio_page import page, script_names
-from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.task_text import page_config
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 
@@ -73,16 +73,8 @@ def worker_page(task: Task | ArcsTask, language: str, policy: str, script: str, 
     script : stands before those of the page
     more : what the page must know besides
     """
-    plain = plain_task(task)
-    config = {
-        "transport": "worker",
-        "task": plain,
-        "name": nearest_built_in(task),
-        "builtin": built_in_tasks(),
-        "language": language,
-        "first": first_answer(plain, language),
-        **more,
-    }
+    config = page_config(task, language, transport="worker", **more)
+    config["first"] = first_answer(config["task"], language)
     bare = page(config, "", (script,))
     return page(config, policy.format(scripts=script_names(bare)), (script,))
 
