@@ -13,6 +13,7 @@ import numpy as np
 from graphcam import __version__
 from graphcam.comparison.quantities import ArcsComparison
 from graphcam.constructions.arc_chain import CENTRES_ROOM, ArcBoard, ArcChain
+from graphcam.drafting.euclid import READABLE_CROSSING
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NO_HELD_SCALES, Scale
@@ -23,6 +24,7 @@ from graphcam.mechanism.three_arc_cam import ThreeArcCam, three_arc_cam
 from graphcam.solving.division_warnings import disagreement
 from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
+from graphcam.solving.solution_warnings import Caution
 from graphcam.solving.task_board import diagram_room, largest_drawn, profile_paper
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.words import Tell, say
@@ -69,8 +71,24 @@ class ArcsSolution(ShownSolution):
 
     @property
     def warnings(self) -> list[str]:
-        """That drawn and exact do not agree, if so; a cam of arcs that is not sound is refused."""
-        return [self.tell(said) for said in disagreement(self.comparison.quantities, self.chain.pencil)]
+        """That the arcs cannot be drawn, or that drawn and exact do not agree; what is not sound is refused."""
+        beyond = disagreement(self.comparison.quantities, self.chain.pencil)
+        return [self.tell(said) for said in (*(caution.said for caution in self.cautions), *beyond)]
+
+    @property
+    def cautions(self) -> list[Caution]:
+        """That lines cross too flatly for one of the centres to be read, and so nothing that rests on it."""
+        drawn = self.drawn["three_arcs"]
+        unread = [(name, rho) for name, rho in (("C₂", "rho2"), ("C₃", "rho3")) if np.isnan(drawn.value(rho)).any()]
+        if not unread:
+            return []
+        said = say(
+            "{centre} cannot be drawn: the lines to it cross at less than {angle:g}°, {radius:.0f} mm away. Nothing "
+            "that rests on it is read; move G or A."
+        )
+        (name, rho), radii = unread[0], {"rho2": self.cam.rho2, "rho3": self.cam.rho3}
+        values = {"centre": name, "angle": math.degrees(READABLE_CROSSING), "radius": abs(radii[rho])}
+        return [Caution(said.with_values(**values), "drawing")]
 
     @property
     def tell(self) -> Tell:

@@ -43,7 +43,7 @@ class Caution:
     said: Caption
     of: Literal[
         "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
-        "unit", "scale", "divisions", "velocity",
+        "unit", "scale", "divisions", "velocity", "drawing",
     ]  # fmt: skip
     phi: tuple[float, ...] = ()
     alpha: float | None = None

@@ -120,17 +120,15 @@ def warnings(solution: AnySolution, spoken: Language) -> list[dict[str, Any]]:
     >>> [(each["view"], each["at"]) for each in warnings(sharp, ENGLISH)]
     [('profile', [-33.52, 0.8])]
     """
-    if not isinstance(solution, Solution):
-        return []
     return [_warning(solution, caution, spoken) for caution in solution.cautions]
 
 
-def _warning(solution: Solution, caution: Caution, spoken: Language) -> dict[str, Any]:
+def _warning(solution: AnySolution, caution: Caution, spoken: Language) -> dict[str, Any]:
     view = CAUTION_VIEWS.get(caution.of)
-    at = _place(solution, caution) if view else None
+    at = _place(solution, caution) if view and isinstance(solution, Solution) else None
     return {
         "text": spoken.text(caution.said),
-        "limit": caution.of not in ("rounding", "unit", "scale", "divisions", "velocity"),
+        "limit": caution.of not in ("rounding", "unit", "scale", "divisions", "velocity", "drawing"),
         "of": caution.of,
         "view": view,
         "at": None if at is None else [round(at.real, 2), round(-at.imag, 2)],

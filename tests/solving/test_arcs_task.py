@@ -174,6 +174,17 @@ def test_a_hand_without_error_draws_every_quantity_to_rounding(solution):
             assert abs(quantity.error_paper) < ROUNDING_PAPER, name
 
 
+def test_a_centre_whose_lines_cross_too_flatly_is_told(solution):
+    far = replace(solution.task, arcs=replace(solution.task.arcs, A=(-3.0, 36.0), C2=None))
+    found = gc.solve(far)
+    # The second arc is almost straight.
+    assert found.cam.rho2 == pytest.approx(1220.2, abs=0.1)
+    assert math.isnan(found.comparison.quantities["rho2"].drawn)
+    (said,) = found.warnings
+    assert "C₂ cannot be drawn: the lines to it cross at less than 1°, 1220 mm away" in said
+    assert solution.warnings == []
+
+
 def test_stations_are_drawn_as_they_are_exactly(document):
     assert [station["phase"] for station in document["stations"]] == [0] * 5 + [1] * 5 + [2] * 5
     for station in document["stations"]:

@@ -54,6 +54,22 @@ def test_what_a_phase_is_refused_is_left_by_undo(opened, key, text):
     assert is_whole(page)
 
 
+@pytest.mark.parametrize(("key", "text"), PHASE_FIELDS)
+def test_what_a_phase_is_refused_is_left_by_the_value_that_is_drawn(opened, key, text):
+    page = opened()
+    first_phase(page)
+    field = page.locator(f"[data-key='{key}']")
+    was, before = field.input_value(), task_of(page)
+    commit(page, field, text)
+    page.locator("#slider").focus()
+    settled(page)
+    assert len(messages(page)) == 1
+    commit(page, field, was)
+    assert field.input_value() == was
+    assert task_of(page) == before
+    assert is_whole(page)
+
+
 def test_a_law_that_is_refused_is_left_by_escape(opened, served):
     page = opened()
     first_phase(page)

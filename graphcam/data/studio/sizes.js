@@ -37,7 +37,9 @@ function sizesOf(page) {
     if (!isOld && Number.isNaN(number)) return refuseText(field);
     delete drafts[keyOf(field)];
     edited = keyOf(field);
-    if (isOld) draw();
+    // Back at what is drawn: what was refused is left.
+    if (wrongAt(field) && value === shortNumber(field.value, decimal())) page.leave();
+    else if (isOld) draw();
     else change(changesOf(field, number));
   }
 
