@@ -118,6 +118,8 @@ def told(page: Page, where: str) -> None:
         pictures, engines = (sorted(times) for times in zip(*page.evaluate(MOVED, [-15, 0.5, MOVES]), strict=True))
         middle, late = statistics.median(pictures), pictures[int(0.95 * MOVES)]
         engine = statistics.median(engines)
+        # What was let go is told first.
+        page.wait_for_timeout(1500)
         seen = page.evaluate(STREAM, [-15, 0.5, STREAMED, APART])
         sys.stdout.write(f"{where}, {view}: {seen} pictures of {STREAMED} moves every {APART} ms\n")
         sys.stdout.write(f"{where}, {view}: median {middle:.0f} ms, 95 % {late:.0f} ms, engine {engine:.0f} ms\n")
