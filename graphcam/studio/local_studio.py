@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 from graphcam.errors import DesignError, GraphcamError, choice_limit
 from graphcam.files import digest
-from graphcam.language import ENGLISH, language, languages
+from graphcam.language import ENGLISH, language
 from graphcam.showing import higher_function
 from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS
 from graphcam.solving.solve import solve
@@ -137,15 +136,8 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
     ...     "<title>" in server.page
     True
     """
-    more = {"transport": "server", "writes": WRITTEN_KINDS, "languages": languages()}
-    config = page_config(builtin_task(), language, **more)
-
-    @cache
-    def in_language(name: str) -> str | None:
-        """The page in another language, at an address of its own: a link may say one."""
-        return page({**config, "language": name}) if name in languages() else None
-
-    return StudioServer(page(config), answer, WrittenFiles(folder, language).write, in_language)
+    config = page_config(builtin_task(), language, transport="server", writes=WRITTEN_KINDS)
+    return StudioServer(page(config), answer, WrittenFiles(folder, language).write)
 
 
 def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:

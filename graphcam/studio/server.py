@@ -79,7 +79,7 @@ def _single_header(headers: Message, name: str) -> str | None:
 class StudioServer(ThreadingTCPServer):
     """A page, and the functions that answer it.
 
-    page : HTML; its scripts stand in it;  others : the page in a language, by its name, None where there is none
+    page : HTML; its scripts stand in it
     engine : answers requests of the page, one at a time
     write : writes the files of a kind, for a request {"kind", "task"}; one at a time too
     port, hosts, token : at which it listens; its names; what the page must know
@@ -91,16 +91,14 @@ class StudioServer(ThreadingTCPServer):
 
     daemon_threads = True
 
-    def __init__(
-        self, page: str, engine: Engine, write: Engine, others: Callable[[str], str | None] = lambda _: None
-    ) -> None:
+    def __init__(self, page: str, engine: Engine, write: Engine) -> None:
         super().__init__(("127.0.0.1", 0), _Handler)
         # A new connection is looked for so often, see run.
         self.timeout = CHECK_INTERVAL
         self.page, self.policy = page, PAGE_POLICY.format(scripts=script_names(page) or "'none'")
         self.port, self.token = self.server_address[1], secrets.token_urlsafe(TOKEN_BYTES)
         self.hosts = f"127.0.0.1:{self.port}", f"localhost:{self.port}"
-        self.engine, self.write, self.others = engine, write, others
+        self.engine, self.write = engine, write
         self._engine_room, self._writing_room = ThreadPoolExecutor(1), ThreadPoolExecutor(1)
         # When each tab is given up; not before the first has shown itself.
         self._ends: dict[bytes, float] = {}
@@ -202,10 +200,9 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _answer(self) -> None:
         self._check_place()
-        page = self.server.page if self.path == "/" else self.server.others(self.path[1:])
-        if page is not None:
+        if self.path == "/":
             self._check_method("GET")
-            self._send(HTTPStatus.OK, "text/html; charset=utf-8", page.encode(), self.server.policy)
+            self._send(HTTPStatus.OK, "text/html; charset=utf-8", self.server.page.encode(), self.server.policy)
         elif self.path in ("/engine", "/write"):
             self._check_method("POST")
             given = self._request()

@@ -15,7 +15,7 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from graphcam.language import language
+from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.sheets.player import PAGE_CAPTIONS as PLAYER_WORDS
 from graphcam.sheets.player_svg import roles_css
 from graphcam.sheets.typefaces import font_faces
@@ -168,9 +168,10 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
 """What the page itself says."""
 SHARED_SCRIPT_FILES = ("gestures.js", "board.js", "lights.js", "mechanism.js")
 SCRIPT_FILES = (
-    "elements.js", "wire.js", "state.js", "address.js", "stage.js", "handles.js", "phases.js", "sizes.js", "panel.js",
-    "what_if.js", "strip.js", "walk.js", "colouring.js", "cam_angle.js", "asking.js", "following.js", "changing.js",
-    "picture.js", "files.js", "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
+    "elements.js", "speaking.js", "wire.js", "state.js", "address.js", "stage.js", "handles.js", "phases.js",
+    "sizes.js", "panel.js", "what_if.js", "strip.js", "walk.js", "colouring.js", "cam_angle.js", "asking.js",
+    "following.js", "changing.js", "picture.js", "files.js", "modes.js", "guess.js", "predict.js", "tour.js",
+    "exercise.js", "studio.js",
 )  # fmt: skip
 """The scripts in order; later ones use functions of earlier ones, and a mode's script is left out where none is."""
 LIBRARY_FILES = ("lit-html.js", "directive.js", "directive-helpers.js", "live.js", "repeat.js")
@@ -211,10 +212,13 @@ def page(config: Mapping[str, Any], policy: str = CONTENT_POLICY, scripts: tuple
     """
     from markupsafe import Markup
 
-    spoken = language(config.get("language", "en"))
-    words = {name: spoken.text(word) for name, word in PAGE_CAPTIONS.items()}
+    spoken = language(config.get("language", ENGLISH.name))
+    words = _words(spoken)
+    # An address may ask for another language.
+    others = {each.name: {"words": _words(each), "remark": each.remark} for each in map(language, languages())}
+    characters = [text for each in others.values() for text in (each["remark"], *each["words"].values())]
     usual: dict[str, Any] = {"language": spoken.name, "first": None, "writes": [], "exercise": None}
-    data: dict[str, Any] = {**usual, **config, "words": words, "address": FIELDS}
+    data: dict[str, Any] = {**usual, **config, "words": words, "spoken": others, "address": FIELDS}
     builtin: Mapping[str, Any] = data["builtin"]
     return _template().render(
         language=spoken.name,
@@ -228,10 +232,15 @@ def page(config: Mapping[str, Any], policy: str = CONTENT_POLICY, scripts: tuple
         + _page_script("studio.css")
         + _page_script("modes.css"),
         scripts=[*map(Markup, scripts), *_scripts()],
-        fonts=Markup(font_faces([DRAWING_CHARACTERS, spoken.remark, *words.values()])),
+        fonts=Markup(font_faces([DRAWING_CHARACTERS, *characters])),
         # No text of a task may end the script that holds it.
         config=Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")),
     )
+
+
+def _words(spoken: Language) -> dict[str, str]:
+    """What the page itself says, in a language."""
+    return {name: spoken.text(said) for name, said in PAGE_CAPTIONS.items()}
 
 
 DRAWING_CHARACTERS = "₀₁₂₃₄₅₆₇₈₉ₐₑₒₓₕₖₗₘₙₚₛₜ′″°±×÷·−–…≤≥≈√∞∠⊥∥→←↑↓²³⁴½"

@@ -157,3 +157,21 @@ def test_a_state_that_is_too_long_leaves_the_address(opened):
     assert in_hash(page) == {"b": "measured"}
     page.locator("#link").click()
     page.wait_for_function("() => document.getElementById('announcement').textContent.includes('too long')")
+
+
+SAID = """() => [document.documentElement.lang, document.title, document.body.innerText,
+    ...[...document.querySelectorAll("[title], [aria-label]")].flatMap((each) =>
+        [each.getAttribute("title"), each.getAttribute("aria-label")])]"""
+
+
+@pytest.mark.parametrize("language", ["ru", "vi", "zh"])
+def test_an_address_in_another_language_says_what_a_page_in_it_does(opened, language):
+    own = opened(config={"language": language}, reduced_motion="reduce")
+    address = "#" + own.url.partition("#")[2]
+    assert in_hash(own)["l"] == language
+    told = own.evaluate(SAID)
+    english = opened(reduced_motion="reduce")
+    assert english.evaluate(SAID) != told
+    english = opened(at=address, reduced_motion="reduce")
+    assert english.evaluate(SAID) == told
+    assert in_hash(english)["l"] == language

@@ -215,10 +215,15 @@
   });
   page.wantWhole = wantWhole;
 
-  // What the address says; the page in another language stands at a place of its own, where there is one.
+  // What the address says, and the page in its language; once it is drawn it is made anew for another one.
   async function read() {
-    const { language = config.language, ...found } = (await page.address.read(location.hash)) || {};
-    if (language !== config.language && config.languages?.includes(language)) location.replace(`/${language}${location.hash}`);
+    const { language, ...found } = (await page.address.read(location.hash)) || {};
+    if (!language || language === config.language || !config.spoken[language]) return found;
+    if (page.last.names) location.reload();
+    else {
+      speak(config, language);
+      state.set({ language });
+    }
     return found;
   }
 

@@ -11,7 +11,7 @@ const VALUE_NAMES = {
 };
 
 function whatIfOf(page) {
-  const { at, words, decimal, last } = page, state = page.state.get, { language } = page.config;
+  const { at, words, decimal, last } = page, state = page.state.get;
   let fields = [], asked = "", sweep = null, running = 0;
 
   const byPath = (isWanted) => fields.find(({ path }) => isWanted(path));
@@ -156,7 +156,7 @@ function whatIfOf(page) {
     let found = null;
     for (let k = 0; k < DESIGNS; k += PIECE) {
       const from = place(k), to = place(k + PIECE - 1);
-      const answer = await page.queue.question({ ask: "sweep", language, task, path, from, to, count: PIECE });
+      const answer = await page.queue.question({ ask: "sweep", language: page.config.language, task, path, from, to, count: PIECE });
       if (own !== running) return;
       found = answer.ok === false ? { path, message: answer.error.message } : joined(found, answer);
       if (!found.curves) break;
