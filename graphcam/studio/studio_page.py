@@ -213,10 +213,11 @@ def page(config: Mapping[str, Any], policy: str = CONTENT_POLICY, scripts: tuple
     from markupsafe import Markup
 
     spoken = language(config.get("language", ENGLISH.name))
-    words = _words(spoken)
     # An address may ask for another language.
-    others = {each.name: {"words": _words(each), "remark": each.remark} for each in map(language, languages())}
-    characters = [text for each in others.values() for text in (each["remark"], *each["words"].values())]
+    every = {name: (_words(language(name)), language(name).remark) for name in languages()}
+    words, _ = every[spoken.name]
+    characters = [text for said, remark in every.values() for text in (remark, *said.values())]
+    others = {name: {"words": said, "remark": remark} for name, (said, remark) in every.items()}
     usual: dict[str, Any] = {"language": spoken.name, "first": None, "writes": [], "exercise": None}
     data: dict[str, Any] = {**usual, **config, "words": words, "spoken": others, "address": FIELDS}
     builtin: Mapping[str, Any] = data["builtin"]
