@@ -17,7 +17,7 @@ function borderChanges(phases, k, degrees, fine = false) {
 function phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused }) {
   const { at, word, decimal } = page;
   const key = "phases";
-  let given = [], phases = [], chosen = null;
+  let given = [], phases = [], chosen = null, wide = 240;
 
   const start = (k) => phases.slice(0, k).reduce((sum, phase) => sum + phase.angle, 0);
   const total = () => start(phases.length) || 360;
@@ -82,7 +82,8 @@ function phasesOf(page, { change, draw, rowOf, errorOf, valueOf, isRefused }) {
     phases = given.map((phase, k) => ({ ...phase, angle: angleOf(phase, k) }));
     if (chosen !== null) chosen = Math.min(chosen, phases.length - 1);
     const own = phases[chosen], isWrong = wrong?.key === key;
-    const wide = (at("form").clientWidth || 242) - 2;
+    // To ask lays the page out; while a hand is down the form stays as wide.
+    if (!page.hand) wide = (at("form").clientWidth || 242) - 2;
     return html`<div class="size phases${isWrong ? " wrong" : ""}" role="group" aria-label=${word("phases")}>
       <div class="phase-bar">${phases.map((phase, k) => segmentOf(phase, k, phase.angle / total() * wide))}${
         phases.slice(1).map((_, k) => borderOf(k, isWrong && wrong.border === k))}</div>

@@ -37,13 +37,14 @@ function pictureOf(page) {
   // as high where a view is smaller, so its frame grows, and each arrangement may call for the other: it changes for something
   // much better, and back, and then stays for these views in this window.  Before a view has come what is still there counts.
   function showPanes(names) {
+    if (page.hand) return;
     const { clientWidth, clientHeight, dataset } = at("desk"), frames = page.panes.map((pane) => (pane.names().includes("mechanism") ? last.mechanism?.box : picture(pane)?.frame) || pane.stage.whole() || [0, 0, ...pane.usual]);
     const seen = (wide, high) => Math.min(...frames.map(([, , w, h]) => Math.min(wide / w, high / h)));
     const better = { rows: MUCH_BETTER, columns: 1 / MUCH_BETTER }[dataset.split] || 1;
     const split = !names.length ? "" : page.phone.matches || better * seen(clientWidth, clientHeight / 2) > seen(clientWidth / 2, clientHeight) ? "rows" : "columns";
     const here = [clientWidth, clientHeight, ...page.panes.map((pane) => pane.names())].join();
     if (place !== here) [place, changes] = [here, 0];
-    if (!page.hand && dataset.split !== split && changes < MOST_CHANGES) {
+    if (dataset.split !== split && changes < MOST_CHANGES) {
       changes += 1;
       dataset.split = split;
       for (const pane of page.panes) pane.stage.resized();
