@@ -77,14 +77,14 @@ class ArcsSolution(ShownSolution):
 
     @property
     def cautions(self) -> list[Caution]:
-        """That lines cross too flatly for one of the centres to be read, and so nothing that rests on it."""
+        """That lines cross too flatly for one of the centres to be read, and with it what is drawn from there."""
         drawn = self.drawn["three_arcs"]
         unread = [(name, rho) for name, rho in (("C₂", "rho2"), ("C₃", "rho3")) if np.isnan(drawn.value(rho)).any()]
         if not unread:
             return []
         said = say(
-            "{centre} cannot be drawn: the lines to it cross at less than {angle:g}°, {radius:.0f} mm away. Nothing "
-            "that rests on it is read; move G or A."
+            "{centre} cannot be drawn: the lines to it cross at less than {angle:g}°, {radius:.0f} mm away. What is "
+            "drawn from there is not read either; move G or A."
         )
         (name, rho), radii = unread[0], {"rho2": self.cam.rho2, "rho3": self.cam.rho3}
         values = {"centre": name, "angle": math.degrees(READABLE_CROSSING), "radius": abs(radii[rho])}
