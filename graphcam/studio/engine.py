@@ -18,6 +18,7 @@ REQUEST_FUNCTIONS: Mapping[str, str] = {
     "predict": "graphcam.studio.predictions.prediction_answer",
     "tours": "graphcam.studio.tours.tours_answer",
     "exercise": "graphcam.studio.exercise_checks.exercise_answer",
+    "sample_exercise": "graphcam.studio.sample_exercise.sample_exercise",
     "task_file": "graphcam.studio.task_text.task_file",
     "open": "graphcam.studio.task_text.opened_task",
     "sweep": "graphcam.studio.what_if.sweep_answer",

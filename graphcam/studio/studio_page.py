@@ -56,7 +56,11 @@ MODE_WORDS: Mapping[str, Caption] = {
     "next_card": say_in("a tour", "Next card"),
     "previous_card": say_in("a tour", "Previous card"),
     "seen": say_in("a tour", "seen"),
-    "no_exercise": say("There is no exercise here. Open the link that came with your handout."),
+    "no_exercise": say(
+        "In an exercise a part of the construction is given. You draw the rest on paper and type what you read; the "
+        "page says what is right. The link that came with your handout opens your own."
+    ),
+    "try_exercise": say("Try one about this cam"),
     "check": say("Check"),
     "answers": say("Answers"),
     "answer_right": say_in("an answer", "right"),

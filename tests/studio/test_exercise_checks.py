@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import pytest
 from hypothesis import given, strategies as st
+from studio_tasks import BUILT_IN, plain_task
 from typer.testing import CliRunner
 
 from graphcam.cli import app
@@ -211,3 +212,19 @@ def test_senseless_checks_are_refused(request_):
     found = answer({"ask": "exercise", **request_})
     assert not found["ok"]
     assert found["error"]["field"].startswith("exercise")
+
+
+@pytest.mark.parametrize("name", [*BUILT_IN])
+def test_an_exercise_to_try_gives_no_construction_in_which_an_answer_is_read(name):
+    task = plain_task(name)
+    made = answer({"ask": "sample_exercise", "task": task})["exercise"]
+    shown = answer({"task": task, "upto": made["upto"], "values": True})["values"]
+    asked = {each["name"] for each in made["answers"]}
+    assert len(asked) >= 2
+    assert not asked & {each["id"] for each in shown}
+    exact = {each["id"]: each["exact"] for each in answer({"task": task, "values": True})["values"]}
+    typed = {each["name"]: round(exact[each["name"]], each["decimals"]) for each in made["answers"]}
+    checked = answer({"ask": "exercise", "exercise": made, "given": typed})["checked"]
+    assert all(checked[each]["right"] for each in asked)
+    wrong = answer({"ask": "exercise", "exercise": made, "given": {each: 1.03 * exact[each] for each in asked}})
+    assert not any(wrong["checked"][each]["right"] for each in asked)

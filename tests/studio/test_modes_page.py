@@ -9,6 +9,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 from studio_pages import in_hash, settled, task_of
 
+import graphcam as gc
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.exports.studio_link import exercise_of, studio_address
 from graphcam.exercises.marking.course_variants import course_variants
@@ -295,6 +296,30 @@ def test_without_hashes_answers_are_asked_and_not_checked(opened, issued):
     page.wait_for_selector("input[name=r0]")
     assert page.locator("#check").count() == 0
     assert "not checked here" in page.inner_text("#card")
+
+
+def test_without_a_link_an_exercise_is_explained_and_one_can_be_tried(opened):
+    page = opened(config={"opening": "mechanism"}, reduced_motion="reduce")
+    before = task_of(page)
+    mode(page, "exercise", "#try-exercise")
+    assert "a part of the construction is given" in page.inner_text("#card")
+    page.click("#try-exercise")
+    page.wait_for_selector("#check")
+    settled(page)
+    found = gc.solve(gc.builtin_task()).comparison.quantities
+    page.fill("input[name=max_v]", f"{found['max_v'].exact * 1.015:.1f}")
+    page.fill("input[name=minimum_prime_radius]", f"{found['minimum_prime_radius'].exact * 1.05:.1f}")
+    page.click("#check")
+    page.wait_for_function("() => document.getElementById('checked').innerText")
+    assert page.inner_text("#checked") == "1 of 2 right."
+    assert page.locator("[data-answer=max_v] .verdict").inner_text() == "right"
+    # The other modes stay open, and the cam is the person's own.
+    page.click("[data-mode=play]")
+    settled(page)
+    assert task_of(page) == before
+    assert page.locator("#strip [data-open=profile]").is_enabled()
+    assert "x" not in in_hash(page)
+    mode(page, "exercise", "#try-exercise")
 
 
 # --- who cannot see or point -----------------------------------------------------------------------------------------

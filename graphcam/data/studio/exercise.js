@@ -33,7 +33,7 @@ async function checkAnswers(exercise, given, ask) {
 
 studioModes.exercise = (() => {
   // What was typed and what is told of it, by the answers' names.
-  let exercise = null, typed = {}, told = {}, result = "", checking = false;
+  let exercise = null, sample = null, typed = {}, told = {}, result = "", checking = false;
 
   const isChecked = () => exercise.answers.some((asked) => asked.check);
 
@@ -113,8 +113,11 @@ studioModes.exercise = (() => {
 
   // Only what is given is drawn, and nothing tells more.
   function enter() {
-    ({ exercise } = studio.state.get());
-    if (!exercise || !Array.isArray(exercise.answers)) return studio.panel.card(html`<p>${wordOf("no_exercise")}</p>`);
+    exercise = studio.state.get().exercise ?? sample;
+    if (!exercise || !Array.isArray(exercise.answers)) {
+      return studio.panel.card(modeCard("exercise", html`<p>${wordOf("no_exercise")}</p>
+        <div class="rows">${modeButton("try-exercise", "try_exercise", begin, true)}</div>`));
+    }
     studio.state.set({
       upto: exercise.upto || null, inert: true, pin: null, board: false, panel: "step", view: null, step: null, part: null,
       hidden: ["mechanism", "values", "what-if", "warnings", "board"],
@@ -132,7 +135,17 @@ studioModes.exercise = (() => {
     if (names?.length && studio.state.get().mode === "exercise") studio.state.set({ view: names.at(-1).name });
   }
 
+  // One about the cam that is shown, for who has none; it is forgotten with the mode.
+  async function begin() {
+    const answer = await studio.ask({ ask: "sample_exercise", language: studio.config.language, task: studio.state.get().task });
+    if (studio.state.get().mode !== "exercise") return;
+    sample = answer.exercise;
+    if (sample) enter();
+    else studio.announce(answer.error.message);
+  }
+
   function leave() {
+    sample = null;
     studio.state.set({ upto: null, inert: false, hidden: [] });
   }
 
