@@ -33,7 +33,7 @@ function wayOf(points) {
 
 // As the axes of a handle: going down is going on.
 function placesOf({ way, free }, words) {
-  const round = (mm) => Math.round(mm * 100) / 100, keys = { unit: "mm", step: 1, fine: 0.2, coarse: 10 };
+  const round = (mm) => Math.round(mm * 100) / 100, keys = { unit: words.mm, step: 1, fine: 0.2, coarse: 10 };
   if (!free) {
     const line = wayOf(way), axis = { ...keys, path: "guess", name: words.guess_along, min: 0, max: round(line.length), screen: "x", up: -1 };
     return { axes: [axis], place: ([along]) => line.placeAt(along), values: (place) => [round(line.nearest(place))] };
