@@ -94,6 +94,9 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "noscript": say("JavaScript is off: only the finished sheet is shown."),
 }
 """The captions of the page itself, by name."""
+
+WIDE_PATTERN = re.compile(r"[\u3000-\u9fff\uff00-\uffef]")
+"""A letter of Chinese, which is as wide as two others."""
 INDENT_PATTERN = re.compile(r"\n\s+(?=<)")
 """The invisible space before an element that begins a line of the template."""
 IDLE_PATTERN = re.compile(r'(?P<text>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')
@@ -172,7 +175,7 @@ class RunText:
     @property
     def widest(self) -> int:
         """The number of letters of its longest row."""
-        return max(len(name) + len(setting) for name, setting in self.rows)
+        return max(len(WIDE_PATTERN.sub("xx", name + setting)) for name, setting in self.rows)
 
     @property
     def settings(self) -> bool:

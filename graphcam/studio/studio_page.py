@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 MODE_WORDS: Mapping[str, Caption] = {
     "locked": say("Sizes and values are locked in this mode."),
+    "mm": say("mm"),
     "predict_what": say("What do you predict?"),
     "predict_how": say(
         "Move the dashed amber mark to where you expect it: drag it, use the arrow keys, or type the number below."

@@ -33,7 +33,7 @@ function wayOf(points) {
 
 // As the axes of a handle: going down is going on.
 function placesOf({ way, free }, words) {
-  const round = (mm) => Math.round(mm * 100) / 100, keys = { unit: "mm", step: 1, fine: 0.2, coarse: 10 };
+  const round = (mm) => Math.round(mm * 100) / 100, keys = { unit: words.mm, step: 1, fine: 0.2, coarse: 10 };
   if (!free) {
     const line = wayOf(way), axis = { ...keys, path: "guess", name: words.guess_along, min: 0, max: round(line.length), screen: "x", up: -1 };
     return { axes: [axis], place: ([along]) => line.placeAt(along), values: (place) => [round(line.nearest(place))] };
@@ -66,13 +66,14 @@ function guessOf(studio, asked, letter, moved) {
     moved(values);
   }
 
-  // Before it is moved it lies where it is seen: the frame is known only when the view is drawn.
+  // Before it is moved it lies where it is seen: the frame is known only when the view is drawn.  The answer lies near the
+  // lower end of what is seen.
   function comeInSight() {
     const frame = stage.frame(), seen = ([x, y]) => x > frame[0] && x < frame[0] + frame[2] && y > frame[1] && y < frame[1] + frame[3];
     if (touched || still || asked.free || !frame || view() !== asked.view || seen(place())) return;
     const { max } = places.axes[0], found = Array.from({ length: 41 }, (_, k) => (max * (40 - k)) / 40).find((along) => seen(places.place([along])));
     if (found === undefined) return;
-    values = [Math.round(0.9 * found)];
+    values = [Math.round(0.5 * found)];
     moved(values);
   }
 

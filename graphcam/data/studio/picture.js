@@ -4,6 +4,9 @@
 // So much larger two panes are seen in the other arrangement before it is taken; and how often it is for the same views.
 const MUCH_BETTER = 1.2, MOST_CHANGES = 2;
 
+// So wide must a small window be for two panes side by side [pixels].
+const SIDE_BY_SIDE = 600;
+
 function pictureOf(page) {
   const { at, word, state, last, strip, sizes } = page, now = state.get;
   let place = "", changes = 0;
@@ -41,7 +44,7 @@ function pictureOf(page) {
     const { clientWidth, clientHeight, dataset } = at("desk"), frames = page.panes.map((pane) => (pane.names().includes("mechanism") ? last.mechanism?.box : picture(pane)?.frame) || pane.stage.whole() || [0, 0, ...pane.usual]);
     const seen = (wide, high) => Math.min(...frames.map(([, , w, h]) => Math.min(wide / w, high / h)));
     const better = { rows: MUCH_BETTER, columns: 1 / MUCH_BETTER }[dataset.split] || 1;
-    const split = !names.length ? "" : page.phone.matches || better * seen(clientWidth, clientHeight / 2) > seen(clientWidth / 2, clientHeight) ? "rows" : "columns";
+    const split = !names.length ? "" : (page.phone.matches && clientWidth < SIDE_BY_SIDE) || better * seen(clientWidth, clientHeight / 2) > seen(clientWidth / 2, clientHeight) ? "rows" : "columns";
     const here = [clientWidth, clientHeight, ...page.panes.map((pane) => pane.names())].join();
     if (place !== here) [place, changes] = [here, 0];
     if (dataset.split !== split && changes < MOST_CHANGES) {

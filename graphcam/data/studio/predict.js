@@ -52,7 +52,7 @@ studioModes.predict = (() => {
     const typed = ({ target: { value } }) => value && guess.set(values.with(k, Number(value)));
     return html`<label class="guess-field"><span>${name}</span>
       <input type="number" step="0.5" min=${Math.ceil(min)} max=${Math.floor(max)} data-field=${k}
-        .value=${live(values[k].toFixed(1))} @change=${typed}><span class="unit">mm</span></label>`;
+        .value=${live(values[k].toFixed(1))} @change=${typed}><span class="unit">${wordOf("mm")}</span></label>`;
   }
 
   function askedOf() {
