@@ -49,7 +49,7 @@ MODE_WORDS: Mapping[str, Caption] = {
     "card_of": say("Card {card} of {cards}", card="{card}", cards="{cards}"),
     "all_tours": say("All tours"),
     "right": say("Right."),
-    "not_right": say("Not that one. Try another answer."),
+    "not_right": say("Not that one."),
     "done_it": say("Done."),
     "do_it": say("Or try it in the drawing; the card will notice."),
     "do_it_only": say("Do it in the drawing or with the sizes; the card will notice."),

@@ -6,9 +6,11 @@ whole.  A card has:
 view, step : what it shows
 changes : of the tour's built-in task, by paths, for this card;  phi : the cam angle at which it starts [degrees]
 ask : the question, or what is to be done;  why : said when it is answered
-choices, answer : of which one is right, if it is a question
+choices, answer : of which one is right, if it is a question;  wrong : why each is not right, null for the right one
 goal : what answers it by being done: a size that reaches a value, told as ``motion.phases[0].angle >= 90``
 rests : by which quantity of a solved task the answer is found, for who checks the cards
+
+What depends on the task stands in places of the texts: ``{sign}`` and ``{sense}``.
 """
 
 import io
@@ -20,12 +22,13 @@ from importlib import resources
 from typing import Any
 
 from graphcam.errors import DesignError
-from graphcam.language import language
+from graphcam.language import MINUS_SIGN, language
+from graphcam.studio.sizes_form import SENSE_NAMES
 from graphcam.studio.task_paths import changed_task, steps_of
 from graphcam.tasks.task_file import builtin_task
-from graphcam.words import Caption, Tell, say
+from graphcam.words import Caption, Tell, Words, say
 
-TEXT_KEYS = ("title", "about", "ask", "why", "choices")
+TEXT_KEYS = ("title", "about", "ask", "why", "choices", "wrong")
 """The keys under which texts stand that are translated."""
 
 
@@ -75,12 +78,28 @@ def _tour(tour: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
 
 
 def _card(card: Mapping[str, Any], built_in: str, tell: Tell) -> dict[str, Any]:
-    said: dict[str, Any] = {name: tell(Caption(card[name])) for name in ("ask", "why")}
-    if "choices" in card:
-        said |= {"choices": [tell(Caption(choice)) for choice in card["choices"]], "answer": card["answer"]}
+    task = card_task(built_in, card)
+    shown = {name: card[name] for name in ("view", "step", "answer") if name in card}
+    said = {name: _told(card[name], tell, places_of(task)) for name in TEXT_KEYS if name in card}
     goal = goal_of(card["goal"]) if "goal" in card else None
-    shown = {name: card[name] for name in ("view", "step")}
-    return {**shown, **said, "task": card_task(built_in, card), "phi": card.get("phi", 0.0), "goal": goal}
+    return {**shown, **said, "task": task, "phi": card.get("phi", 0.0), "goal": goal}
+
+
+def places_of(task: Mapping[str, Any]) -> dict[str, Words]:
+    """What stands in the places of texts: the sign before e in tan α = (v − σe)/(s₀ + s), and the sense of rotation.
+
+    >>> places_of({"rotation": "cw"})["sign"], places_of({"rotation": "ccw"})["sign"]
+    ('+', '−')
+    """
+    rotation = task["rotation"]
+    return {"sign": {"cw": "+", "ccw": MINUS_SIGN}[rotation], "sense": SENSE_NAMES[rotation]}
+
+
+def _told(texts: Any, tell: Tell, places: Mapping[str, Words]) -> Any:
+    """A text of a card, or a list of them, translated and with its places filled; null stays."""
+    if isinstance(texts, str):
+        return tell(Caption(texts, places))
+    return texts and [_told(text, tell, places) for text in texts]
 
 
 def card_task(built_in: str, card: Mapping[str, Any]) -> dict[str, Any]:

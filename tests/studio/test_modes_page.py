@@ -13,7 +13,7 @@ import graphcam as gc
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.exports.studio_link import exercise_of, studio_address
 from graphcam.exercises.marking.course_variants import course_variants
-from graphcam.studio.tours import tours
+from graphcam.studio.tours import tours, tours_answer
 
 pytestmark = pytest.mark.slow
 
@@ -147,9 +147,14 @@ def test_a_card_is_answered_by_choosing_and_says_why(opened):
     mode(page, "tour", "[data-tour=offset]")
     page.click("[data-tour=offset]")
     settled(page)
-    first = tours()[0]["cards"][0]
-    page.click(f"[data-choice='{first['answer'] + 1}']")
-    assert "Not that one" in announced(page)
+    first = tours_answer({"language": "en"})["tours"][0]["cards"][0]
+    # Also a choice that is tried again.
+    for k in [1, 2, 1]:
+        assert k != first["answer"]
+        page.click(f"[data-choice='{k}']")
+        reason = f"Not that one. {first['wrong'][k]}"
+        assert page.inner_text("#card-told") == announced(page) == reason
+    assert page.locator("[data-state=wrong]").count() == 2
     assert first["why"] not in page.inner_text("#card")
     page.click(f"[data-choice='{first['answer']}']")
     assert first["why"] in page.inner_text("#card-told")

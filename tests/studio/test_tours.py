@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import operator
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from tour_facts import facts, right_choice, trend
 
@@ -13,8 +15,9 @@ import graphcam as gc
 from graphcam.errors import DesignError
 from graphcam.studio.guesses import step_ids
 from graphcam.studio.task_paths import changed_task, value_at
-from graphcam.studio.tours import OPERATORS, card_task, extract, goal_of, texts_of, tours, tours_answer
+from graphcam.studio.tours import OPERATORS, card_task, extract, goal_of, places_of, texts_of, tours, tours_answer
 from graphcam.tasks.task_file import task_of
+from graphcam.words import Caption
 
 CARDS = [(tour["task"], card) for tour in tours() for card in tour["cards"]]
 NAMES = [f"{tour['id']}-{k}" for tour in tours() for k, _ in enumerate(tour["cards"], 1)]
@@ -58,6 +61,48 @@ def test_a_card_is_answered_by_choosing_or_by_doing(built_in, card):
     assert "choices" in card or "goal" in card
     if "choices" in card:
         assert 0 <= card["answer"] < len(card["choices"]) == len(set(card["choices"]))
+
+
+@pytest.mark.parametrize("card", [card for _, card in CARDS if "choices" in card])
+def test_every_wrong_choice_has_a_reason_of_its_own_and_the_right_one_has_none(card):
+    reasons = card["wrong"]
+    assert len(reasons) == len(card["choices"])
+    assert [k for k, reason in enumerate(reasons) if reason is None] == [card["answer"]]
+    said = [*filter(None, reasons), card["why"]]
+    assert len(set(said)) == len(said)
+    assert all(len(reason) > 40 and reason.endswith(".") for reason in filter(None, reasons))
+
+
+def sign_of_offset(text: str) -> int:
+    """The sign before e in the formula of the pressure angle that a text tells."""
+    found = re.search(r"tan α = \(v ([+−]) e\)/\(s₀ \+ s\)", text)
+    assert found, text
+    return {"+": 1, "−": -1}[found[1]]
+
+
+@pytest.mark.parametrize("rotation", ["cw", "ccw", "of the card"])
+def test_the_formula_of_the_pressure_angle_is_that_of_the_task_that_is_shown(rotation):
+    told = tours_answer({"language": "en"})["tours"][0]["cards"][0]
+    task, why = told["task"], told["why"]
+    if rotation != "of the card":
+        task = changed_task(task, {"rotation": rotation})
+        why = str(Caption(tours()[0]["cards"][0]["why"], places_of(task)))
+    cam = gc.solve(task_of("card", task)).cam
+    e = task["follower"]["offset"]
+    s0 = np.sqrt(cam.prime_radius**2 - e**2)
+    found = cam.at(np.radians([10.0, 39.0, 70.0, 100.0, 140.0, 170.0, 250.0]))
+    s, v = found.values[:2]
+    assert e != 0
+    assert np.tan(found.pressure_angle) == pytest.approx((v + sign_of_offset(why) * e) / (s0 + s), rel=1e-9)
+    assert f"turns {'clockwise' if task['rotation'] == 'cw' else 'anticlockwise'}:" in why
+
+
+@pytest.mark.parametrize(("built_in", "card"), [c for c in CARDS if "instead of" in c[1]["ask"]])
+def test_what_a_card_asks_to_change_is_the_size_of_its_task(built_in, card):
+    found = re.search(r"(\d+)(?:°| mm).* instead of (\d+)(?:°| mm)", card["ask"])
+    goal = goal_of(card["goal"])
+    assert found
+    assert (float(found[1]), float(found[2])) == (goal["value"], value_at(card_task(built_in, card), goal["path"]))
 
 
 @pytest.mark.parametrize(("built_in", "card"), [c for c in CARDS if "goal" in c[1]])

@@ -59,11 +59,13 @@ studioModes.tour = (() => {
     return html`<div class="choices" role="group" aria-label=${ask}>${choices.map(buttonOf)}</div>`;
   }
 
+  // Why the choice that was tried last is not right.
+  const wrongSaid = ({ wrong }) => (tried.size ? `${wordOf("not_right")} ${wrong[[...tried].at(-1)]}` : "");
+
   function showCard(more) {
     const card = tour.cards[place], { choices, goal, ask, why } = card;
     const isDone = answered.has(place), isLast = place === tour.cards.length - 1;
-    const wrong = tried.size ? wordOf("not_right") : "";
-    const told = isDone ? `${wordOf(choices ? "right" : "done_it")} ${why}` : wrong;
+    const told = isDone ? `${wordOf(choices ? "right" : "done_it")} ${why}` : wrongSaid(card);
     const progressOf = (_, k) => html`<i class=${k === place ? "here" : answered.has(k) ? "done" : nothing}></i>`;
     studio.panel.card(modeCard("tour", html`<h2 id="card-title" tabindex="-1">${letters(tour.title)}</h2>
       <p class="hint">${placeSaid()}</p>
@@ -87,10 +89,11 @@ studioModes.tour = (() => {
 
   function choose(k) {
     if (k === tour.cards[place].answer) return answer("right");
+    tried.delete(k);
     tried.add(k);
     showCard({ stays: true });
     showTold();
-    studio.announce(wordOf("not_right"));
+    studio.announce(wrongSaid(tour.cards[place]));
   }
 
   const showTold = () => document.getElementById("card-told").scrollIntoView({ block: "nearest" });
