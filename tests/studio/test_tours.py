@@ -13,6 +13,7 @@ from tour_facts import facts, right_choice, trend
 
 import graphcam as gc
 from graphcam.errors import DesignError
+from graphcam.language import languages
 from graphcam.studio.guesses import step_ids
 from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.tours import OPERATORS, card_task, extract, goal_of, places_of, texts_of, tours, tours_answer
@@ -158,6 +159,13 @@ def test_the_page_gets_every_text_and_no_rest():
     assert [tour["title"] for tour in told] == [tour["title"] for tour in tours()]
     assert not any("rests" in card for tour in told for card in tour["cards"])
     json.dumps(told, allow_nan=False)
+
+
+@pytest.mark.parametrize("name", languages())
+def test_every_place_of_a_text_is_filled_in_every_language(name):
+    told = list(texts_of(tours_answer({"language": name})["tours"]))
+    assert len(told) == len(list(texts_of(tours())))
+    assert not [text for text in told if "{" in text]
 
 
 def test_every_text_is_found_by_the_tools_of_gettext():
