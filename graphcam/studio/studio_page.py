@@ -150,12 +150,11 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "pinned": say("Pinned"),
     "now": say("Now"),
     "quantity": say("Quantity"),
-    "drawn": say("Drawn"),
+    "drawn": say_in("a value", "Drawn"),
     "exact": say("Exact"),
     "bound": say("Bound"),
-    "values_about": say(
-        "Drawn: measured on the drawing, times the scale. Bound: the largest drawing error, in mm of paper."
-    ),
+    "drawn_about": say("Drawn: measured on the drawing, times the scale."),
+    "bound_about": say("Bound: the largest drawing error, in mm of paper."),
     "over": say("Over the size"),
     "sweeping": say("Computing the curve ..."),
     "not_rounded": say("exact, not rounded: {value}", value="{value}"),

@@ -94,6 +94,6 @@ function valuesPanelOf(page) {
     const pinned = pinnedValues(page), lastColumn = pinned ? pinnedColumn(pinned) : bound;
     const table = valuesTable(last, [...columns, lastColumn], words);
     render(html`<div class="scrolled" tabindex="0" role="region" aria-label=${words.values}>${table}</div>
-      <p class="hint">${letters(words.values_about)}</p>`, at("panel-values"));
+      <p class="hint">${letters(words.drawn_about)}${pinned ? nothing : ` ${words.bound_about}`}</p>`, at("panel-values"));
   };
 }
