@@ -130,6 +130,7 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
         files="{files}",
     ),
     "replace_them": say("Write all the same"),
+    "live_exact": say("Exact values. Beside the cursor of a diagram stands what is drawn there."),
     "colouring": say("Profile in colour"),
     "colour_none": say_in("a colour", "none"),
     "curvature_radius": say("Radius of curvature ρ"),

@@ -296,3 +296,25 @@ def test_a_slider_that_is_moved_is_one_entry(opened):
     settled(page)
     assert task_of(page)["follower"]["offset"] != before
     assert page.evaluate("() => studio.state.past()") == 1
+
+
+def test_of_knobs_that_cover_each_other_the_nearest_is_taken(opened):
+    """Two borders of phases that lie a few degrees apart, each taken on its own side."""
+    page = opened("arm", config={"opening": "mechanism"}, reduced_motion="reduce")
+    places = {
+        name: middle(page.locator(f"#hands-beside .hand[data-id='displacement/border {name}']")) for name in (1, 2)
+    }
+    (left, height), (right, _) = sorted(places.values())
+    assert right - left < 22  # less than a knob is wide
+    angles = [phase["angle"] for phase in task_of(page)["motion"]["phases"]]
+    for k, x in enumerate((left - 4, right + 4)):
+        page.mouse.move(x, height)
+        page.mouse.down()
+        page.mouse.move(x + (-12, 12)[k], height, steps=3)
+        page.mouse.up()
+        settled(page)
+        now = [phase["angle"] for phase in task_of(page)["motion"]["phases"]]
+        changed = [j for j, (old, new) in enumerate(zip(angles, now, strict=True)) if old != new]
+        assert changed == [k, k + 1]
+        page.click("#undo")
+        settled(page)

@@ -46,7 +46,8 @@ function camAngleOf(page) {
       <svg class="spark" viewBox="0 0 360 60" preserveAspectRatio="none" aria-hidden="true"></svg></div>`;
     page.stepPanel.tell(html`<h2>${letters(turned.phaseAt(now().phi).name)}</h2>
       <p class="about">${letters(data.about)}</p>
-      ${colouring(data)}<dl class="live">${data.live.map(rowOf)}</dl>`);
+      ${colouring(data)}<dl class="live">${data.live.map(rowOf)}</dl>
+      <p class="hint">${word("live_exact")}</p>`);
     at("panel-step").querySelectorAll(".spark").forEach((picture, j) => showSpark(picture, data, data.live[j], k));
   }
 

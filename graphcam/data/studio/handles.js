@@ -68,7 +68,7 @@ function handsOf(at, stage, acts) {
     return html`<div class="hand${kind}" data-id=${id} title=${name} role=${isTwo ? "group" : nothing}
       aria-label=${isTwo ? name : nothing} aria-roledescription=${isTwo ? word("slider_2d") : nothing}
       style="transform: translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)"
-      @pointerdown=${(event) => down(event, id)} @dblclick=${() => type(current(id), knobAt(id))}>
+      @pointerdown=${down} @dblclick=${() => type(current(id), knobAt(id))}>
       <svg class="knob" viewBox="-22 -22 44 44" aria-hidden="true">
         <circle class="halo" r="15"></circle><circle class="ring" r="8"></circle>
         <path class="ways" d=${WAYS[shape] ?? ""} transform="rotate(${turnOf(handle)})"></path>
@@ -96,11 +96,20 @@ function handsOf(at, stage, acts) {
 
   // --- the hand -----------------------------------------------------------------------------------------------------
 
-  function down(event, id) {
-    const handle = current(id);
-    if (event.button || held || !handle) return;
+  // Of knobs that lie on one another the nearest is meant, not the one on top.
+  function nearest({ clientX, clientY }, { left, top }) {
+    const far = ({ at: mark }) => {
+      const [x, y] = stage.toScreen(mark);
+      return Math.hypot(left + x - clientX, top + y - clientY);
+    };
+    return handles.reduce((found, handle) => (far(handle) < far(found) ? handle : found));
+  }
+
+  function down(event) {
+    if (event.button || held || !handles.length) return;
     event.preventDefault();
-    const [x, y] = stage.toScreen(handle.at), box = at("hands").getBoundingClientRect();
+    const box = at("hands").getBoundingClientRect(), handle = nearest(event, box), { id } = handle;
+    const [x, y] = stage.toScreen(handle.at);
     if (!grab(handle)) return;
     const knob = knobAt(id);
     held = {
