@@ -119,3 +119,15 @@ def test_what_is_refused_stays_where_the_last_answer_drew_it(opened, served):
     page.evaluate(FRAMES)
     assert np.array_equal(places(page.evaluate(LINES)), before)
     page.evaluate("() => dispatchEvent(new PointerEvent('pointerup'))")
+
+
+def test_another_view_is_asked_for_while_a_hand_is_down_that_has_not_moved(opened):
+    page = opened()
+    page.mouse.move(*middle(page.locator(".hand[data-id='combined/A']")))
+    page.mouse.down()
+    page.keyboard.press("7")
+    page.wait_for_function("() => studio.quiet()")
+    assert page.evaluate("() => studio.panes[0].names()") != ["combined"]
+    page.mouse.up()
+    settled(page)
+    assert page.evaluate("() => studio.state.past()") == 0

@@ -69,6 +69,8 @@ function followingOf(page) {
 
   // The hand has moved: the drawing goes with it in the next frame.
   function goAlong() {
+    // A hand that is down and has not moved may still ask for another view.
+    if (!page.hand.drag && !page.hand.changes) return;
     if (of !== page.hand) begin();
     due ||= requestAnimationFrame(() => {
       due = 0;
