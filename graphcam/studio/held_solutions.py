@@ -23,7 +23,6 @@ from graphcam.solving.arcs_solution import AnySolution, solve_arcs
 from graphcam.solving.diagram_sizes import DrawnHeights
 from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import board_of
-from graphcam.studio.size_ranges import sizes_of
 from graphcam.studio.view_steps import ViewName
 from graphcam.studio.views_request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
@@ -222,7 +221,7 @@ def check_heights(board: Board) -> None:
 
 
 def has_far_centre(solution: AnySolution) -> bool:
-    """Whether a stem's cam centre is too far away for its combined diagram, whose scale is that of s.
+    """Whether the cam centre is too far away for the combined diagram, if there is one: its scale is that of s.
 
     >>> import graphcam as gc
     >>> task = gc.builtin_task().to_dict()
@@ -230,7 +229,7 @@ def has_far_centre(solution: AnySolution) -> bool:
     >>> has_far_centre(near), has_far_centre(far)
     (False, True)
     """
-    if not isinstance(solution, Solution) or "offset" not in sizes_of(solution.task):
+    if not isinstance(solution, Solution):
         return False
     board = solution.chain.board
     first, second = board.poles

@@ -75,3 +75,14 @@ def test_an_arm_whose_arcs_miss_each_other_is_told_beside_its_prime_radius():
         told = answer({"task": task, "views": []})
         assert told["ok"] is answer({"task": task, "views": [], "told": True})["ok"] is drawn
         assert drawn or told["error"]["field"] == "cam.prime_radius"
+
+
+@pytest.mark.parametrize("radius", [60.0, 2000.0, 1e9])
+@pytest.mark.parametrize("name", ["coursework", "flat", "measured"])
+def test_every_view_that_is_offered_can_be_drawn(name, radius):
+    """A cam centre that is too far away for the diagram of the region, whose ordinate the task gives."""
+    task = changed_task(plain_task(name), {"cam.prime_radius": radius, "drawing.ordinate": 50.0})
+    names = [each["name"] for each in answer({"task": task})["names"]]
+    refused = [each for each in names if not answer({"task": task, "views": [{"name": each}]})["ok"]]
+    assert refused == []
+    assert radius == 2000 or ("combined" in names) == (radius == 60)
