@@ -31,7 +31,7 @@ MAGNET_REACH = 2.5
 COARSE_STEPS = 10
 """A coarse step is so many steps."""
 DECIMALS = 3
-MAX_DISTANCE = 1e6
+MAX_DISTANCE = 1e5
 """No place on paper is farther away [mm]."""
 Mark = Callable[[Any], Any] | Callable[[Any, Any], Any]
 """The place of a mark for one size or two [mm of paper]."""

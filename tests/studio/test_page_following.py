@@ -38,6 +38,14 @@ def lines_of(view: dict[str, Any]) -> list[list[str]]:
     return [list(found) for found in re.findall(r'<path class="([^"]*)"[^>]* d="([^"]*)"', svg)]
 
 
+def take_hold(page) -> None:
+    """The offset's slider is held and moved, with two answers of the engine."""
+    page.evaluate("() => dispatchEvent(new PointerEvent('pointerdown'))")
+    for offset in (-9.0, -8.5):
+        page.evaluate(SLIDE, offset)
+        page.wait_for_function("() => studio.quiet()")
+
+
 @pytest.fixture
 def held(served):
     """Lets the engine answer or not."""
@@ -62,10 +70,7 @@ def test_the_drawing_goes_on_to_where_the_engine_will_draw_it(opened, served, he
     page.locator(f"#view-{view}").click()
     settled(page)
     going = held()
-    page.evaluate("() => dispatchEvent(new PointerEvent('pointerdown'))")
-    for offset in (-9.0, -8.5):
-        page.evaluate(SLIDE, offset)
-        page.wait_for_function("() => studio.quiet()")
+    take_hold(page)
     before = places(page.evaluate(LINES))
     going.clear()
     page.evaluate(SLIDE, -8.0)
@@ -107,10 +112,7 @@ def test_a_knob_is_under_the_pointer_before_the_engine_has_answered(opened, held
 
 def test_what_is_refused_stays_where_the_last_answer_drew_it(opened, served):
     page = opened()
-    page.evaluate("() => dispatchEvent(new PointerEvent('pointerdown'))")
-    for offset in (-9.0, -8.5):
-        page.evaluate(SLIDE, offset)
-        page.wait_for_function("() => studio.quiet()")
+    take_hold(page)
     before = places(page.evaluate(LINES))
     error = {"field": "follower.offset", "message": "too far", "remedy": ""}
     served.answering = lambda request: {"seq": request["seq"], "ok": False, "error": error}

@@ -148,6 +148,7 @@ class _Tally:
         self.named.update(_name_of(record.diagnosis, answer_key, self.made) for record in records)
 
     def add(self, other: _Tally) -> None:
+        """Count what another one has counted, too."""
         self.hands += other.hands
         self.accepted += other.accepted
         self.wrong += other.wrong

@@ -150,6 +150,7 @@ class _Reader:
     exercise: Exercise
 
     def value_error(self, where: Words, value: object, allowed: Words) -> TaskError:
+        """The error of a value at a place of the file, with what is allowed there."""
         if isinstance(value, str):
             return TaskError(self.path, where, value[:60], allowed, EXPORT_REMEDY)
         shown = f"{value}"[:60] if isinstance(value, int | float | None) else f"a {type(value).__name__}"
@@ -165,11 +166,13 @@ class _Reader:
         return said
 
     def choice(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
+        """What is said, if it is one of what is allowed."""
         if not any(type(said) is type(one) and said == one for one in allowed):
             raise self.value_error(where, said, say("one of {names}", names=", ".join(map(str, allowed))))
         return said
 
     def student(self, where: str, said: Any) -> StudentCorrections:
+        """The corrections of a student's answers and bars."""
         table = self.table(where, said, {"answers", "bars", "reviewed"})
         answers = self.table(f"{where}.answers", table["answers"])
         bars = self.table(f"{where}.bars", table["bars"])
@@ -180,6 +183,7 @@ class _Reader:
         )
 
     def answer(self, where: str, name: str, said: Any) -> Correction:
+        """The correction of an answer, by its name."""
         asked = next((one for one in self.exercise.answers if one.name == name), None)
         if asked is None:
             names = ", ".join(one.name for one in self.exercise.answers)
@@ -204,6 +208,7 @@ class _Reader:
         return Correction(verdict, given, photo)
 
     def lengths(self, where: str, page: str, said: Any) -> tuple[int, tuple[float | None, float | None]]:
+        """The number of a page, and the lengths of its bars, across and up [mm]; None where one is not told."""
         if not (page.isascii() and page.isdecimal() and 0 < int(page[:4]) < 1000):
             raise self.value_error(where, page, say("the number of a page"))
         if not isinstance(said, list) or len(said) != 2:

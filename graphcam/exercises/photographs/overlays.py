@@ -105,9 +105,11 @@ class _Board:
         return np.round(places * 2**FRACTION_BITS).astype(np.int32)
 
     def line(self, points: NDArray[np.complexfloating[Any, Any]], colour: tuple[int, int, int]) -> None:
+        """Draw a line through places (n,) [mm]."""
         cv2.polylines(self.canvas, [self.pixels(points)], False, colour, 1, cv2.LINE_AA, FRACTION_BITS)
 
     def rings(self, points: Points, radius: float, colour: tuple[int, int, int]) -> None:
+        """Draw a circle of a radius [mm] about each of some places (n,) [mm]."""
         size = round(radius * self.per_mm * 2**FRACTION_BITS)
         for x, y in self.pixels(points).tolist():
             cv2.circle(self.canvas, (x, y), size, colour, 1, cv2.LINE_AA, FRACTION_BITS)
